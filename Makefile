@@ -1,0 +1,58 @@
+# make          build every figure          make test   set up if needed, check and test
+# make bench    measure the speed figures   make lock   resolve the dependencies anew (needs uv)
+# make figures/fig_3_1.png                  build one figure
+
+PYTHON ?= python3
+BIN := .venv/bin
+PIP := $(BIN)/python -m pip install -qq --disable-pip-version-check --require-hashes --no-build-isolation
+export OPENBLAS_NUM_THREADS ?= 1
+
+.PHONY: figures test lint bench gallery lock clean FORCE
+
+figures: .venv/run.stamp
+	@$(BIN)/python -m snakemake
+
+figures/%: .venv/run.stamp FORCE
+	@$(BIN)/python -m snakemake $@
+
+test: lint
+	@$(BIN)/python -m pytest
+
+lint: .venv/test.stamp
+	@$(BIN)/ruff check .
+	@$(BIN)/ruff format --check .
+	@$(BIN)/snakefmt --check Snakefile workflow
+	@$(BIN)/mypy
+	@$(BIN)/lint-imports
+	@$(BIN)/python -m snakemake --lint
+
+bench: .venv/test.stamp
+	@$(BIN)/python -m benchmarks
+
+# Copies of the figures for the README.
+gallery: figures
+	@mkdir -p docs/gallery && cp figures/*.png docs/gallery/
+
+clean:
+	rm -rf results figures/*.png figures/*.pdf logs .snakemake
+
+# The environment: build tools first, so that nothing is fetched beyond the hashed locks.
+.venv/run.stamp: requirements-build.lock requirements.lock pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.version_info >= (3, 11) or sys.exit("Python 3.11 or newer is needed: make PYTHON=...")'
+	@echo "Setting up .venv from requirements.lock (about a minute)"
+	@$(PYTHON) -m venv .venv
+	@$(PIP) -r requirements-build.lock
+	@$(PIP) -r requirements.lock
+	@$(BIN)/python -m pip install -qq --disable-pip-version-check --no-deps --no-build-isolation -e .
+	@touch $@
+
+.venv/test.stamp: .venv/run.stamp requirements-dev.lock
+	@echo "Adding the test tools from requirements-dev.lock"
+	@$(PIP) -r requirements-dev.lock
+	@touch $@
+
+COMPILE := uv pip compile --universal --generate-hashes --no-header --no-annotate -q
+lock:
+	echo 'setuptools>=80' | $(COMPILE) - -o requirements-build.lock
+	$(COMPILE) pyproject.toml --extra workflow -c requirements-build.lock -o requirements.lock
+	$(COMPILE) pyproject.toml --all-extras -c requirements.lock -o requirements-dev.lock

@@ -1,0 +1,19 @@
+"""Gremaud, Matthews, Shearer (2000): every figure of the paper, from its equations.
+
+Targets: `snakemake` makes all figures, `snakemake figures/fig_3_1.png` one of them.
+"""
+
+
+configfile: "config.yaml"
+
+
+include: "workflow/rules/common.smk"
+include: "workflow/rules/geometry.smk"
+include: "workflow/rules/radial.smk"
+include: "workflow/rules/flow_factor.smk"
+
+
+rule all:
+    default_target: True
+    input:
+        expand("figures/{figure}.{suffix}", figure=FIGURES, suffix=["png", "pdf"]),

@@ -1,0 +1,1 @@
+"""Speed figures, each a ratio or a total within one run. `make bench` runs them all."""

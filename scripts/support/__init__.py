@@ -1,0 +1,1 @@
+"""What the scripts share: artifacts, provenance, logs, configuration, plots. No mathematics."""

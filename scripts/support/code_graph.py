@@ -1,0 +1,68 @@
+"""Which modules of this project a script depends on, from the real import graph."""
+
+import ast
+import os
+from functools import lru_cache
+from pathlib import Path
+
+import grimp
+
+PACKAGES = {"hopper": "src", "support": "scripts"}
+
+
+def let_scripts_import(root: Path) -> None:
+    """Make the packages below ``root`` importable for this process and the scripts it starts."""
+    folders = [str(root / folder) for folder in PACKAGES.values()]
+    inherited = os.environ.get("PYTHONPATH", "").split(os.pathsep)
+    kept = [folder for folder in inherited if folder and folder not in folders]
+    os.environ["PYTHONPATH"] = os.pathsep.join(folders + kept)
+
+
+@lru_cache(maxsize=1)
+def _graph() -> grimp.ImportGraph:
+    # A cache on disk would be one more file that can be stale.
+    return grimp.build_graph(*PACKAGES, cache_dir=None)
+
+
+@lru_cache(maxsize=256)
+def modules_used_by(root: Path, script: str) -> list[str]:
+    """Return the files, sorted, that ``script`` imports from this project, directly or not.
+
+    ``root`` is the repository, ``script`` a path below it. Importing a module also runs the
+    ``__init__`` of its package; the plot style goes with the module that loads it.
+    """
+    graph = _graph()
+    modules: set[str] = set()
+    for module in _imported(root / script) & graph.modules:
+        modules |= {module} | graph.find_upstream_modules(module)
+    modules |= {module.split(".")[0] for module in modules}
+    files = {_file(root, module) for module in modules}
+    if "support.plotting" in modules:
+        files.add(root / "scripts/support/paper.mplstyle")
+    return sorted(relative(file) for file in files)
+
+
+def relative(file: Path) -> str:
+    """Return a path as rules should name it: relative where the workflow runs in its own clone.
+
+    So a clone may move without its results becoming outdated.
+    """
+    here = Path.cwd()
+    return str(file.relative_to(here) if file.is_relative_to(here) else file)
+
+
+def _imported(script: Path) -> set[str]:
+    """Return every dotted name a script may import; names that are not modules do no harm."""
+    names: set[str] = set()
+    for node in ast.walk(ast.parse(script.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            names |= {node.module} | {f"{node.module}.{alias.name}" for alias in node.names}
+    return names
+
+
+def _file(root: Path, module: str) -> Path:
+    package, *rest = module.split(".")
+    path = root.joinpath(PACKAGES[package], package, *rest)
+    return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")

@@ -1,0 +1,50 @@
+"""Check config.yaml against the schema before any job starts."""
+
+import math
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import yaml
+from jsonschema.exceptions import ValidationError, best_match
+
+
+class ConfigurationError(Exception):
+    """A configuration value is wrong; the one-line message names the key and the remedy."""
+
+
+def check(config: Mapping[str, Any], schema_path: str | Path) -> None:
+    """Validate a configuration.
+
+    Raises
+    ------
+    ConfigurationError
+        For the most relevant violation of the schema, or a value that is not finite.
+    """
+    for key, value in _leaves(config, ""):
+        if isinstance(value, float) and not math.isfinite(value):
+            raise ConfigurationError(f"config key '{key}' is {value}: give a finite number")
+    schema = yaml.safe_load(Path(schema_path).read_text(encoding="utf-8"))
+    error = best_match(jsonschema.Draft202012Validator(schema).iter_errors(config))
+    if error is not None:
+        raise ConfigurationError(_explain(error, schema_path))
+
+
+def _leaves(value: Any, key: str) -> Iterator[tuple[str, Any]]:
+    if isinstance(value, Mapping):
+        for name, item in value.items():
+            yield from _leaves(item, f"{key}.{name}" if key else str(name))
+    elif isinstance(value, list):
+        for index, item in enumerate(value):
+            yield from _leaves(item, f"{key}[{index}]")
+    else:
+        yield key, value
+
+
+def _explain(error: ValidationError, schema_path: str | Path) -> str:
+    key = error.json_path.removeprefix("$").removeprefix(".") or "top level"
+    meaning = error.schema.get("description", "") if isinstance(error.schema, Mapping) else ""
+    message = error.message if len(error.message) < 200 else error.message[:200] + " ..."
+    hint = f" ({meaning})" if meaning else ""
+    return f"config key '{key}': {message}{hint}; see {Path(schema_path).name}"

@@ -1,0 +1,36 @@
+"""Run a script as a Snakemake job: its log goes to the log file and to the screen."""
+
+import logging
+import sys
+from collections.abc import Callable
+from typing import Any
+
+from hopper.errors import HopperError
+from support.artifacts import ArtifactError
+
+_FORMAT = "%(asctime)s %(levelname)-7s %(message)s"
+
+
+def run(function: Callable[..., None], job: Any) -> None:
+    """Call a rule's function with the job's named inputs, outputs and params.
+
+    ``job`` is Snakemake's object. The input ``code``, there for Snakemake only, is left out. A
+    foreseen error ends in one line and exit code 1.
+    """
+    handlers: list[logging.Handler] = [logging.StreamHandler()]
+    handlers += [logging.FileHandler(path, mode="w", encoding="utf-8") for path in job.log]
+    logging.basicConfig(level=logging.INFO, format=_FORMAT, handlers=handlers, force=True)
+    for library in ("fontTools", "matplotlib"):
+        logging.getLogger(library).setLevel(logging.WARNING)
+    arguments = {**job.input, **job.output, **job.params}
+    arguments.pop("code", None)
+    logging.info("%s: started", job.rule)
+    try:
+        function(**arguments)
+    except (HopperError, ArtifactError, OSError) as error:
+        logging.error("%s: %s: %s", job.rule, type(error).__name__, error)
+        sys.exit(1)
+    except Exception:
+        logging.exception("%s: unexpected error", job.rule)
+        sys.exit(1)
+    logging.info("%s: done", job.rule)

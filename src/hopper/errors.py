@@ -1,0 +1,41 @@
+"""Typed errors. Messages are one line, in degrees, and name the remedy."""
+
+
+class HopperError(Exception):
+    """Base of every error this package raises on purpose."""
+
+
+class InvalidParameterError(HopperError, ValueError):
+    """An input is non-finite, out of range, or of an unknown kind."""
+
+
+class WallFrictionError(HopperError):
+    """The wall is rougher than the material can transmit: there is no wall angle psi_w."""
+
+
+class NonPositiveStressError(HopperError):
+    """The radial solution for these parameters has no positive average stress."""
+
+
+class NoRadialSolutionError(HopperError):
+    """No radial solution exists for this wall friction.
+
+    ``largest_friction_angle`` (radians) is the largest wall friction that has one; None if not
+    even a smooth wall has.
+    """
+
+    def __init__(self, message: str, largest_friction_angle: float | None) -> None:
+        super().__init__(message)
+        self.largest_friction_angle = largest_friction_angle
+
+
+class SingularVelocityError(HopperError):
+    """The velocity equation is singular because psi reaches pi/4 at ``theta`` (radians)."""
+
+    def __init__(self, message: str, theta: float) -> None:
+        super().__init__(message)
+        self.theta = theta
+
+
+class ConvergenceError(HopperError):
+    """An iteration did not reach an acceptable error; the message names the achieved one."""

@@ -1,0 +1,247 @@
+"""The one-parameter family of radial solutions: continuation, fold, all solutions for a wall.
+
+Along the family, ordered by tau = 1 / sigma_0, the wall friction first grows from the smooth wall.
+In most Mohr-Coulomb cones it passes a maximum, the fold, and then tends to the mass-flow limit of
+sigma_0 -> 0. Elsewhere psi reaches its singular angle first, at the wall or inside the hopper, and
+the family ends there.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+from math import degrees, exp, log, radians
+from typing import Literal
+
+import numpy as np
+from scipy.optimize import brentq
+
+from hopper.errors import NoRadialSolutionError
+from hopper.mass_flow import limiting_wall_angle
+from hopper.problem import Hopper
+from hopper.radial_collocation import Closure, Member, crude_start, half_grid, newton, refine
+
+End = Literal["fold", "wall", "interior", "axis"]
+
+_SIZE = 48
+_FIRST_STEP = 0.05
+_LARGEST_STEP = 0.2
+_SMALLEST_STEP = 1e-3
+# Radians below the singular angle where the family counts as ended: at the wall, inside.
+_WALL_MARGIN, _INTERIOR_MARGIN = 2e-3, 2e-2
+# tau theta_w beyond which the axis counts as free of stress.
+_FREE_AXIS = 300.0
+
+
+@dataclass(frozen=True)
+class FrictionLimit:
+    """The largest wall friction with a radial solution on the physical branch.
+
+    Attributes
+    ----------
+    friction_angle : float
+        phi, radians.
+    end : "fold", "wall", "interior" or "axis"
+        What ends the branch: a second branch; a wall as rough as the material; psi at its singular
+        angle inside the hopper; or vanishing stress on the axis (the mass-flow limit).
+    tau, psi_wall : float
+        1 / sigma_0, and psi(theta_w) in radians, there.
+    error_estimate : float
+        Of ``friction_angle``, radians.
+    """
+
+    friction_angle: float
+    end: End
+    tau: float
+    psi_wall: float
+    error_estimate: float
+
+
+def smooth_wall_member(hopper: Hopper) -> Member:
+    """Return the member with psi_w = 0, on a coarse grid; its tau is negative for small delta.
+
+    Raises
+    ------
+    NoRadialSolutionError
+        If the hopper is so wide that even a smooth wall has no radial solution.
+    """
+    smooth = Closure("psi_wall", 0.0)
+    member, angle = None, hopper.half_angle
+    while member is None and angle > radians(1):
+        narrow = Hopper(hopper.geometry, hopper.delta, angle, hopper.material)
+        grid = half_grid(_SIZE, angle)
+        member = newton(narrow, grid, smooth, crude_start(narrow, grid, 0.0))
+        angle /= 2
+    step = 0.1
+    while member is not None and member.hopper.half_angle < hopper.half_angle:
+        angle = min(hopper.half_angle, member.hopper.half_angle + step)
+        wider = Hopper(hopper.geometry, hopper.delta, angle, hopper.material)
+        following = newton(wider, half_grid(_SIZE, angle), smooth, member.u)
+        if following is None:
+            step /= 2
+            if step < 1e-3:
+                break
+        else:
+            member = following
+    if member is None or member.hopper.half_angle < hopper.half_angle:
+        raise NoRadialSolutionError(
+            f"no radial solution at half_angle = {degrees(hopper.half_angle):.6g} deg, "
+            f"delta = {degrees(hopper.delta):.6g} deg, even for a smooth wall: lower half_angle",
+            largest_friction_angle=None,
+        )
+    return member
+
+
+def family(hopper: Hopper) -> Iterator[Member]:
+    """Yield members in order of increasing tau, from the smooth wall to the end of the family.
+
+    The parameter is psi_w where psi_w changes fast, tau where tau does.
+
+    Raises
+    ------
+    NoRadialSolutionError
+        As :func:`smooth_wall_member`.
+    """
+    member, step = smooth_wall_member(hopper), _FIRST_STEP
+    yield member
+    while not _ended(member) and step > _SMALLEST_STEP:
+        direction = np.array([member.tangent[-2], member.tangent[-1] / (1 + abs(member.tau))])
+        scale = step * np.sign(member.tangent[-1]) / np.hypot(*direction)
+        guess = member.u + scale * member.tangent
+        by_wall = abs(direction[0]) > abs(direction[1]) / 2
+        closure = Closure("psi_wall", guess[-2]) if by_wall else Closure("tau", guess[-1])
+        following = newton(hopper, member.grid, closure, guess)
+        if following is None or following.error > step:
+            step /= 2
+            continue
+        member, step = _regrid(following), min(1.5 * step, _LARGEST_STEP)
+        yield member
+
+
+def _ended(member: Member) -> bool:
+    hopper = member.hopper
+    singular = hopper.material.singular_angle(hopper.delta)
+    return (
+        member.psi_wall > singular - _WALL_MARGIN
+        or member.psi[:-1].max() > max(singular - _INTERIOR_MARGIN, member.psi_wall)
+        or member.tau * hopper.half_angle > _FREE_AXIS
+    )
+
+
+def _regrid(member: Member) -> Member:
+    """Move a member to the grid that resolves its apex layer, of width 1 / tau."""
+    half_angle = member.hopper.half_angle
+    layer = 1.15 * float(np.arcsinh(member.tau * half_angle / 4))
+    grid = half_grid(_SIZE, half_angle, 0.5 * round(2 * max(0.0, layer)))
+    if grid is member.grid:
+        return member
+    return newton(member.hopper, grid, member.closure, member.on(grid)) or member
+
+
+def _past_fold(member: Member) -> bool:
+    # Where psi_w is the parameter the sign of this slope is that of rounding near the end.
+    return member.closure.unknown == "tau" and member.psi_wall_by_tau <= 0
+
+
+@lru_cache(maxsize=256)
+def friction_limit(hopper: Hopper) -> FrictionLimit:
+    """Return the largest wall friction that has a radial solution.
+
+    Raises
+    ------
+    NoRadialSolutionError
+        If not even a smooth wall has one.
+    ConvergenceError
+        If the fold is not resolved.
+    """
+    last = smooth_wall_member(hopper)
+    for member in family(hopper):
+        if _past_fold(member):
+            return _fold(last, member)
+        last = member
+    law = hopper.material
+    if last.psi_wall > law.singular_angle(hopper.delta) - _WALL_MARGIN:
+        singular, phi = law.singular_angle(hopper.delta), law.largest_friction_angle(hopper.delta)
+        return FrictionLimit(phi, "wall", last.tau, singular, error_estimate=0.0)
+    reached = law.friction_angle(hopper.delta, last.psi_wall)
+    if last.tau * hopper.half_angle > _FREE_AXIS:
+        wall = limiting_wall_angle(hopper)
+        phi = law.friction_angle(hopper.delta, wall)
+        return FrictionLimit(phi, "axis", last.tau, wall, abs(phi - reached))
+    uncertainty = reached - law.friction_angle(hopper.delta, last.psi_wall - _INTERIOR_MARGIN)
+    return FrictionLimit(reached, "interior", last.tau, last.psi_wall, uncertainty)
+
+
+def _between(member: Member, tau: float) -> Member:
+    """Return the resolved member at a tau close to that of ``member``."""
+    closure = Closure("tau", tau)
+    near = newton(member.hopper, member.grid, closure, member.on(member.grid))
+    return refine(near or Member(member.hopper, member.grid, closure, member.u, member.tangent, 1))
+
+
+def _fold(below: Member, above: Member) -> FrictionLimit:
+    """Locate d psi_w / d tau = 0 between two members."""
+    start = above if above.grid.clustering == below.grid.clustering else below
+
+    def slope(log_tau: float) -> float:
+        return _between(start, exp(log_tau)).psi_wall_by_tau
+
+    top = _between(start, exp(brentq(slope, log(below.tau), log(above.tau), xtol=1e-10)))
+    phi = top.hopper.material.friction_angle(top.hopper.delta, top.psi_wall)
+    return FrictionLimit(phi, "fold", top.tau, top.psi_wall, top.error)
+
+
+def members_with_wall_angle(hopper: Hopper, psi_wall: float) -> list[Member]:
+    """Return all resolved members with the given psi_w (radians), in order of increasing tau.
+
+    Raises
+    ------
+    NoRadialSolutionError
+        As :func:`smooth_wall_member`.
+    ConvergenceError
+        If a member is not resolved.
+    """
+    found = []
+    for low, high in pairwise(family(hopper)):
+        if (low.psi_wall - psi_wall) * (high.psi_wall - psi_wall) <= 0 != high.psi_wall - psi_wall:
+            found += [_at_wall_angle(low, high, psi_wall)]
+    return found
+
+
+def _at_wall_angle(low: Member, high: Member, psi_wall: float) -> Member:
+    if low.psi_wall == psi_wall:
+        return refine(low)
+    closure = Closure("psi_wall", psi_wall)
+    fraction = (psi_wall - low.psi_wall) / (high.psi_wall - low.psi_wall)
+    guess = low.u + fraction * (high.on(low.grid) - low.u)
+    member = newton(low.hopper, low.grid, closure, guess)
+    if member is not None and low.tau <= member.tau <= high.tau:
+        return refine(member)
+    # Near the fold Newton in psi_w can slip to the other branch; tau cannot.
+    tau = brentq(
+        lambda t: _between(low, t).psi_wall - psi_wall, low.tau, high.tau, xtol=1e-13, rtol=1e-14
+    )
+    return _between(low, tau)
+
+
+def member_with_tau(hopper: Hopper, tau: float) -> Member:
+    """Return the resolved member with the given tau = 1 / sigma_0.
+
+    Raises
+    ------
+    NoRadialSolutionError
+        If tau lies outside the part of the family between the smooth wall and its end.
+    ConvergenceError
+        If the member is not resolved.
+    """
+    low = smooth_wall_member(hopper)
+    least = low.tau
+    for high in family(hopper):
+        if low.tau <= tau <= high.tau:
+            return _between(low if tau - low.tau < high.tau - tau else high, tau)
+        low = high
+    raise NoRadialSolutionError(
+        f"no radial solution with sigma_axis = {1 / tau if tau else np.inf:.6g}: "
+        f"1 / sigma_axis must lie between {least:.6g} (smooth wall) and {low.tau:.6g}",
+        friction_limit(hopper).friction_angle,
+    )

@@ -1,0 +1,313 @@
+"""Chebyshev collocation and Newton iteration for the radial stress equations, (2.8), (2.9), (3.3).
+
+Unknowns are log(sigma / sigma_0), even in theta, and psi, odd, at the positive half of a
+Chebyshev grid on [-theta_w, theta_w], and tau = 1 / sigma_0, the strength of gravity relative to
+the stress at the axis. The equations, divided by sigma, are regular in tau through tau = 0, where
+sigma_0 passes through infinity; the apex is an ordinary point between two nodes.
+
+All radial solutions of a hopper form a curve with one member for each tau.
+
+References
+----------
+.. [TT] T. W. Tee, L. N. Trefethen, A rational spectral collocation method with adaptively
+   transformed Chebyshev grid points, SIAM J. Sci. Comput. 28 (2006).
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from math import isfinite
+from typing import Literal
+
+import numpy as np
+
+from hopper import chebyshev
+from hopper.chebyshev import Array
+from hopper.errors import ConvergenceError
+from hopper.problem import Hopper
+
+# Half-grid sizes; a solution on one is confirmed on the next.
+_SIZES = (16, 24, 36, 54, 80, 120, 180)
+_NEWTON_STEPS = 25
+_TOLERANCE = 1e-12
+_ACCEPTABLE = 1e-6
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Half grid on (0, theta_w]; ``clustering`` > 0 draws points to the apex by a sinh map [TT]."""
+
+    half_angle: float
+    clustering: float
+    theta: Array
+    d_even: Array
+    d_odd: Array
+    axis_row: Array
+
+    @property
+    def size(self) -> int:
+        """Number of points m."""
+        return self.theta.size
+
+    def interpolation(self, theta: Array, parity: chebyshev.Parity) -> Array:
+        """Return the matrix from half-grid values to values at ``theta``, shape (n, m)."""
+        x = theta / self.half_angle
+        if self.clustering:
+            x = np.arcsinh(x * np.sinh(self.clustering)) / self.clustering
+        return chebyshev.half_interpolation_matrix(self.size, np.clip(x, -1, 1), parity)
+
+
+@lru_cache(maxsize=128)
+def half_grid(size: int, half_angle: float, clustering: float = 0.0) -> Grid:
+    """Return the grid of ``size`` points on (0, half_angle], radians."""
+    x = chebyshev.half_nodes(size)
+    if clustering:
+        scale = half_angle / np.sinh(clustering)
+        theta = scale * np.sinh(clustering * x)
+        stretch = scale * clustering * np.cosh(clustering * x)
+    else:
+        theta, stretch = half_angle * x, np.full(size, half_angle)
+    return Grid(
+        half_angle=half_angle,
+        clustering=clustering,
+        theta=theta,
+        d_even=chebyshev.half_differentiation_matrix(size, "even") / stretch[:, None],
+        d_odd=chebyshev.half_differentiation_matrix(size, "odd") / stretch[:, None],
+        axis_row=chebyshev.half_interpolation_matrix(size, 0.0, "even")[0],
+    )
+
+
+@dataclass(frozen=True)
+class Closure:
+    """What selects one member of the family: psi at the wall (radians), or tau."""
+
+    unknown: Literal["psi_wall", "tau"]
+    value: float
+
+
+@dataclass(frozen=True)
+class Member:
+    """A solution on a grid: ``u`` = (log(sigma / sigma_0), psi, tau), ``tangent`` along the family.
+
+    ``error`` is the size of the Newton step that brought it from the next coarser grid.
+    """
+
+    hopper: Hopper
+    grid: Grid
+    closure: Closure
+    u: Array
+    tangent: Array
+    error: float
+
+    @property
+    def log_ratio(self) -> Array:
+        """log(sigma / sigma_0) at the nodes."""
+        return self.u[: self.grid.size]
+
+    @property
+    def psi(self) -> Array:
+        """Psi (radians) at the nodes."""
+        return self.u[self.grid.size : -1]
+
+    @property
+    def psi_wall(self) -> float:
+        """Psi at the wall, radians."""
+        return float(self.u[-2])
+
+    @property
+    def tau(self) -> float:
+        """1 / sigma_0."""
+        return float(self.u[-1])
+
+    @property
+    def psi_wall_by_tau(self) -> float:
+        """D psi_w / d tau along the family; changes sign at a fold."""
+        return float(self.tangent[-2] / self.tangent[-1])
+
+    def on(self, grid: Grid) -> Array:
+        """Return ``u`` interpolated to another grid, stretched where the half angles differ."""
+        if grid is self.grid:
+            return self.u
+        theta = grid.theta * (self.grid.half_angle / grid.half_angle)
+        even = self.grid.interpolation(theta, "even")
+        odd = self.grid.interpolation(theta, "odd")
+        return np.concatenate([even @ self.log_ratio, odd @ self.psi, self.u[-1:]])
+
+
+def radial_terms(hopper: Hopper, c2: Array, s2: Array, cot: Array) -> Array:
+    """Return the algebraic terms of the radial equation over sigma, without gravity.
+
+    ``c2``, ``s2`` are cos 2psi and sin 2psi, ``cot`` is cot(theta).
+    """
+    k, s, law = hopper.curvature, hopper.s, hopper.material
+    return (
+        (2 + k) * (1 - law.radial * s * c2)
+        - (1 + law.angular * s * c2)
+        - k * (s * s2 * cot + 1 + law.hoop * s + law.hoop_cosine * s * c2)
+    )
+
+
+def angular_terms(hopper: Hopper, c2: Array, s2: Array, cot: Array) -> Array:
+    """Return the algebraic terms of the angular equation over sigma, without gravity."""
+    k, s, law = hopper.curvature, hopper.s, hopper.material
+    hoop_excess = (law.angular - law.hoop_cosine) * c2 - law.hoop
+    return -(3 + k) * s * s2 + k * s * hoop_excess * cot
+
+
+def slopes(hopper: Hopper, theta: Array, sigma: Array, psi: Array) -> tuple[Array, Array]:
+    """Return d log(sigma)/d theta and d psi/d theta that the equations prescribe, shape (n,)."""
+    k, s, b = hopper.curvature, hopper.s, hopper.material.angular
+    c2, s2 = np.cos(2 * psi), np.sin(2 * psi)
+    axis = theta == 0
+    cot = np.divide(1.0, np.tan(theta), out=np.zeros_like(theta), where=~axis)
+    radial = radial_terms(hopper, c2, s2, cot) + np.cos(theta) / sigma
+    angular = angular_terms(hopper, c2, s2, cot) - np.sin(theta) / sigma
+    determinant = 2 * s * (c2 + b * s)
+    dlog = (2 * b * s * s2 * radial - 2 * s * c2 * angular) / determinant
+    dpsi = ((1 + b * s * c2) * radial + s * s2 * angular) / determinant
+    # At the axis cot(theta) sin(2 psi) tends to 2 psi'.
+    dpsi[axis] = radial[axis] / (2 * s * (1 + k))
+    dlog[axis] = 0.0
+    return dlog, dpsi
+
+
+def _residual_and_jacobian(hopper: Hopper, grid: Grid, u: Array) -> tuple[Array, Array]:
+    k, s, law = hopper.curvature, hopper.s, hopper.material
+    b, m = law.angular, grid.size
+    log_ratio, psi, tau = u[:m], u[m:-1], u[-1]
+    c2, s2 = np.cos(2 * psi), np.sin(2 * psi)
+    cot = 1 / np.tan(grid.theta)
+    downward, outward = np.cos(grid.theta), np.sin(grid.theta)
+    lightness = np.exp(-log_ratio)
+    dlog, dpsi = grid.d_even @ log_ratio, grid.d_odd @ psi
+    stiffness = 1 + b * s * c2
+
+    residual = np.zeros(2 * m + 1)
+    residual[:m] = -s * (dlog * s2 + 2 * dpsi * c2)
+    residual[:m] += radial_terms(hopper, c2, s2, cot) + tau * lightness * downward
+    residual[m:-1] = dlog * stiffness - 2 * b * s * dpsi * s2
+    residual[m:-1] += angular_terms(hopper, c2, s2, cot) - tau * lightness * outward
+
+    jacobian = np.zeros((2 * m + 1, 2 * m + 1))
+    node = np.arange(m)
+    jacobian[:m, :m] = -s * s2[:, None] * grid.d_even
+    jacobian[node, node] -= tau * lightness * downward
+    jacobian[:m, m:-1] = -2 * s * c2[:, None] * grid.d_odd
+    jacobian[node, m + node] += (
+        -2 * s * (dlog * c2 - 2 * dpsi * s2)
+        + 2 * s * s2 * ((2 + k) * law.radial + b + k * law.hoop_cosine)
+        - 2 * k * s * c2 * cot
+    )
+    jacobian[:m, -1] = lightness * downward
+    jacobian[m:-1, :m] = stiffness[:, None] * grid.d_even
+    jacobian[m + node, node] += tau * lightness * outward
+    jacobian[m:-1, m:-1] = -2 * b * s * s2[:, None] * grid.d_odd
+    jacobian[m + node, m + node] += (
+        -2 * b * s * (dlog * s2 + 2 * dpsi * c2)
+        - 2 * (3 + k) * s * c2
+        - 2 * k * s * s2 * (b - law.hoop_cosine) * cot
+    )
+    jacobian[m:-1, -1] = -lightness * outward
+    return residual, jacobian
+
+
+def _newton_step(hopper: Hopper, grid: Grid, closure: Closure, u: Array) -> tuple[Array, Array]:
+    """Return the Newton correction, and the derivative of u by the closure's value."""
+    residual, jacobian = _residual_and_jacobian(hopper, grid, u)
+    # log(sigma / sigma_0) = 0 on the axis replaces the angular equation at the wall: that equation
+    # is odd with one degree less, so one of its rows is redundant.
+    residual[-2] = grid.axis_row @ u[: grid.size]
+    jacobian[-2] = 0.0
+    jacobian[-2, : grid.size] = grid.axis_row
+    column = -2 if closure.unknown == "psi_wall" else -1
+    residual[-1] = u[column] - closure.value
+    jacobian[-1, column] = 1.0
+    right = np.zeros((u.size, 2))
+    right[:, 0] = -residual
+    right[-1, 1] = 1.0
+    solved: Array = np.linalg.solve(jacobian, right)
+    return solved[:, 0], solved[:, 1]
+
+
+def _size(step: Array, u: Array) -> float:
+    """Size of a step: absolute in log(sigma) and psi, relative in tau where tau > 1."""
+    return max(float(np.abs(step[:-1]).max()), float(abs(step[-1])) / max(abs(u[-1]), 1.0))
+
+
+def newton(hopper: Hopper, grid: Grid, closure: Closure, u: Array) -> Member | None:
+    """Solve on one grid from the start ``u``; None where the iteration fails.
+
+    The member's ``error`` is the size of the first step.
+    """
+    first = size = 0.0
+    for iteration in range(_NEWTON_STEPS):
+        previous = size
+        try:
+            with np.errstate(over="ignore", invalid="ignore"):
+                step, tangent = _newton_step(hopper, grid, closure, u)
+        except np.linalg.LinAlgError:
+            return None
+        size = _size(step, u)
+        u = u + step
+        if not isfinite(size) or np.abs(u[grid.size : -1]).max() > np.pi / 2:
+            return None
+        if iteration == 0:
+            first = size
+        # Quadratic convergence: after a step of 1e-8 the error is of rounding size. Steps that
+        # no longer shrink are rounding themselves.
+        if size < 1e-8 or (size < 1e-6 and size > previous / 2):
+            return Member(hopper, grid, closure, u, tangent, first)
+    return None
+
+
+def crude_start(hopper: Hopper, grid: Grid, psi_wall: float) -> Array:
+    """Return linear psi, uniform stress, and tau from the apex limit of the radial equation."""
+    apex = float(radial_terms(hopper, np.ones(1), np.zeros(1), np.zeros(1))[0])
+    slope = psi_wall / hopper.half_angle
+    tau = 2 * hopper.s * (1 + hopper.curvature) * slope - apex
+    return np.concatenate([np.zeros(grid.size), slope * grid.theta, [tau]])
+
+
+def refine(member: Member) -> Member:
+    """Solve on finer grids until the step from one to the next is of rounding size.
+
+    Raises
+    ------
+    ConvergenceError
+        If the finest grid still changes the solution by more than 1e-6.
+    """
+    for size in _SIZES:
+        if size <= member.grid.size:
+            continue
+        grid = half_grid(size, member.hopper.half_angle, member.grid.clustering)
+        finer = newton(member.hopper, grid, member.closure, member.on(grid))
+        if finer is None:
+            break
+        stagnant = finer.error < 1e-10 and finer.error > member.error / 2
+        member = finer
+        if member.error < _TOLERANCE or stagnant:
+            return member
+    if member.error < _ACCEPTABLE:
+        return member
+    raise ConvergenceError(
+        f"radial solution not resolved: {member.grid.size} half-grid points leave an error of "
+        f"{member.error:.1e}; psi is too close to its singular value, lower the wall friction"
+    )
+
+
+def solve(hopper: Hopper, closure: Closure, start: Member | None = None) -> Member | None:
+    """Solve from ``start`` (default: a crude guess) on a coarse grid and refine.
+
+    Returns None where Newton's iteration fails.
+
+    Raises
+    ------
+    ConvergenceError
+        As :func:`refine`.
+    """
+    for size in _SIZES[:3]:
+        grid = half_grid(size, hopper.half_angle)
+        u = crude_start(hopper, grid, closure.value) if start is None else start.on(grid)
+        member = newton(hopper, grid, closure, u)
+        if member is not None:
+            return refine(member)
+    return None

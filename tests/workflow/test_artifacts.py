@@ -1,0 +1,110 @@
+"""Artifacts: conventions, provenance, identical bytes, logs; damaged ones are refused."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import netCDF4
+import numpy as np
+import pytest
+
+from support import artifacts
+
+pytestmark = pytest.mark.workflow
+
+
+def files(workflow, folder, pattern):
+    found = sorted((workflow.path / folder).rglob(pattern))
+    assert found
+    return found
+
+
+def test_every_artifact_describes_itself(built):
+    for path in files(built, "results", "*.nc"):
+        with netCDF4.Dataset(path) as data:
+            for name in ("Conventions", "title", "source", "references", "parameters", "summary"):
+                assert data.getncattr(name), f"{path.name} lacks {name}"
+            assert data.Conventions.startswith("CF-1.")
+            assert json.loads(data.parameters)
+            for name, variable in data.variables.items():
+                assert variable.long_name, f"{path.name}: {name}"
+                if variable.dtype is not str and not hasattr(variable, "flag_values"):
+                    assert variable.units, f"{path.name}: {name}"
+                assert not isinstance(variable.datatype, netCDF4.CompoundType)
+
+
+def test_compliance_checker_finds_no_cf_error(built, tmp_path):
+    checker = Path(sys.executable).with_name("compliance-checker")
+    for path in files(built, "results", "*.nc"):
+        report = tmp_path / "report.json"
+        command = [checker, "--test=cf:1.11", "--format=json", f"--output={report}", path]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        assert report.exists(), done.stderr
+        result = json.loads(report.read_text())["cf:1.11"]
+        problems = [item["msgs"] for item in result["high_priorities"] if item["msgs"]]
+        problems += [item["msgs"] for item in result["medium_priorities"] if item["msgs"]]
+        assert not problems, f"{path}: {problems}"
+
+
+def test_provenance_matches_its_artifact(built):
+    for path in files(built, "results", "*.nc"):
+        record = json.loads(path.with_suffix(".provenance.json").read_text())
+        assert record["sha256"] == artifacts.checksum(path)
+        assert record["artifact"] == path.name
+        for key in ("created", "commit", "python", "packages", "parameters", "hopper"):
+            assert key in record
+
+
+def test_artifacts_and_figures_are_identical_in_another_place(built, fresh):
+    fresh.build("--cores", "1", TZ="Asia/Tokyo", LC_ALL="C")
+    compared = files(built, "results", "*.nc") + files(built, "figures", "*.p*")
+    for path in compared:
+        twin = fresh.path / path.relative_to(built.path)
+        assert artifacts.checksum(path) == artifacts.checksum(twin), path.name
+
+
+def test_error_estimates_are_in_the_artifacts(built):
+    for path in files(built, "results/radial", "*.nc"):
+        data = artifacts.read(path)
+        for name in ("error_radial", "error_velocity"):
+            assert np.all((data[name] > 0) & (data[name] < 1e-10))
+
+
+def test_logs_receive_what_the_script_says(built):
+    for path in files(built, "logs", "*.log"):
+        text = path.read_text(encoding="utf-8")
+        assert ": started" in text
+        assert text.rstrip().endswith(": done")
+    for log in files(built, "logs", "*.log"):
+        assert log.with_suffix(".benchmark.tsv").is_file()
+
+
+def test_a_truncated_artifact_is_named_with_its_remedy(rebuilt):
+    path = rebuilt.path / "results/radial/fig_3_1.nc"
+    path.write_bytes(path.read_bytes()[:2000])
+    with pytest.raises(artifacts.ArtifactError, match=r"fig_3_1\.nc is damaged .*rebuild it with"):
+        artifacts.read(path)
+    path.write_bytes(b"not netCDF at all")
+    with pytest.raises(artifacts.ArtifactError, match="damaged"):
+        artifacts.read(path)
+    path.unlink()
+    with pytest.raises(artifacts.ArtifactError, match="missing: build it with: snakemake"):
+        artifacts.read(path)
+
+
+def test_an_artifact_of_another_configuration_is_refused(built):
+    path = built.path / "results/radial/fig_3_1.nc"
+    with pytest.raises(artifacts.ArtifactError, match="another configuration"):
+        artifacts.read(path, parameters={"delta_deg": 31})
+
+
+def test_an_interrupted_write_leaves_nothing(tmp_path):
+    def interrupted():
+        with artifacts.replacing(tmp_path / "artifact.nc") as partial:
+            partial.write_text("half")
+            raise RuntimeError("disk gone")
+
+    with pytest.raises(RuntimeError, match="disk gone"):
+        interrupted()
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,94 @@
+"""Bad configurations end in one readable error that names the key, before any job starts."""
+
+import pytest
+import yaml
+
+from support import configuration
+from tests.workflow.conftest import ROOT
+
+SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
+
+
+@pytest.fixture
+def config():
+    return yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
+
+
+def assign(config, key, value):
+    *parents, last = key.split(".")
+    for name in parents:
+        config = config[name]
+    config[last] = value
+
+
+def test_the_shipped_configuration_is_valid(config):
+    configuration.check(config, SCHEMA)
+
+
+BAD = [
+    ("radial.fig_3_1.delta_deg", 95, "'radial.fig_3_1.delta_deg': 95 is greater than"),
+    ("radial.fig_3_1.delta_deg", "30", "'radial.fig_3_1.delta_deg': '30' is not of type 'number'"),
+    ("radial.fig_3_1.delta_deg", float("nan"), "'radial.fig_3_1.delta_deg' is nan: give a finite"),
+    ("radial.fig_3_1.half_angle_deg", 0, "'radial.fig_3_1.half_angle_deg': 0 is less than"),
+    ("radial.fig_3_1.half_angle_deg", float("inf"), "'radial.fig_3_1.half_angle_deg' is inf"),
+    ("radial.fig_3_1.geometry", "sphere", "'radial.fig_3_1.geometry': 'sphere' is not one of"),
+    ("radial.fig_3_1.models", ["tresca"], r"'radial.fig_3_1.models\[0\]': 'tresca' is not one of"),
+    ("radial.fig_3_1.mu", [], "'radial.fig_3_1.mu': .* should be non-empty"),
+    ("radial.fig_3_1.mu", [-0.1], r"'radial.fig_3_1.mu\[0\]': -0.1 is less than the minimum of 0"),
+    ("radial.fig_3_1.points", 10.5, "'radial.fig_3_1.points': 10.5 is not of type 'integer'"),
+    ("radial.fig_3_1.typo", 1, r"'radial.fig_3_1': .*'typo' was unexpected"),
+    ("radial.fig_9_9", {}, r"'radial': .*'fig_9_9' was unexpected"),
+    ("extra", 1, r"'top level': .*'extra' was unexpected"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("key", "value", "message"), BAD)
+def test_a_bad_value_is_named(config, key, value, message):
+    assign(config, key, value)
+    with pytest.raises(configuration.ConfigurationError, match=message) as caught:
+        configuration.check(config, SCHEMA)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_missing_key_is_named(config):
+    del config["radial"]["fig_3_1"]["points"]
+    message = "'radial.fig_3_1': 'points' is a required property"
+    with pytest.raises(configuration.ConfigurationError, match=message):
+        configuration.check(config, SCHEMA)
+
+
+def test_every_key_of_the_schema_is_described():
+    schema = yaml.safe_load(SCHEMA.read_text(encoding="utf-8"))
+
+    def undescribed(node, path):
+        for name, child in node.get("properties", {}).items():
+            if "$ref" not in child:
+                if "description" not in child:
+                    yield f"{path}.{name}"
+                yield from undescribed(child, f"{path}.{name}")
+
+    found = list(undescribed(schema, ""))
+    for name, definition in schema["$defs"].items():
+        found += list(undescribed(definition, name))
+    assert found == []
+
+
+@pytest.mark.workflow
+def test_the_workflow_stops_before_any_job(fresh):
+    fresh.edit("config.yaml", "mu: [0, 0.2]", "mu: [0, steep]")
+    done = fresh.snakemake()
+    assert done.returncode != 0
+    assert "config key 'radial.fig_3_1.mu[1]': 'steep' is not of type 'number'" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert not (fresh.path / "results").exists()
+
+
+@pytest.mark.workflow
+def test_a_friction_without_solution_ends_in_one_line_and_leaves_nothing(fresh):
+    fresh.edit("config.yaml", "mu: [0.356]", "mu: [0.36]")
+    done = fresh.snakemake("figures/fig_3_2.png")
+    assert done.returncode != 0
+    assert "NoRadialSolutionError: no radial solution at phi" in done.stderr
+    assert "the largest friction that has one is phi = 19.7406 deg (mu = 0.358852)" in done.stderr
+    assert "Traceback" not in (fresh.path / "logs/solve_radial/fig_3_2.log").read_text()
+    assert not list(fresh.path.glob("results/**/*.nc"))

@@ -1,0 +1,88 @@
+"""Editing one thing reruns what depends on it and nothing else: dry runs of the real workflow."""
+
+import ast
+import os
+import time
+
+import pytest
+
+from tests.workflow.conftest import ROOT, Workflow
+
+pytestmark = pytest.mark.workflow
+
+PLOTS = {path.stem for path in (ROOT / "scripts").glob("plot_*.py")}
+
+
+def test_nothing_to_do_after_a_build(built):
+    assert built.reruns() == set()
+    assert "Nothing to be done" in built.snakemake().stderr
+
+
+def test_moving_the_clone_reruns_nothing(rebuilt):
+    assert rebuilt.reruns() == set()
+
+
+def test_a_figures_parameter_reruns_its_chain_only(rebuilt):
+    rebuilt.edit("config.yaml", "mu: [0, 0.2]", "mu: [0, 0.25]")
+    assert rebuilt.reruns() == {"solve_radial/fig_3_1", "plot_fig_3_1"}
+
+
+def test_a_mark_in_a_figure_reruns_its_plot_only(rebuilt):
+    rebuilt.edit("config.yaml", "stagnant_from_deg: 20", "stagnant_from_deg: 21")
+    assert rebuilt.reruns() == {"plot_fig_3_2"}
+
+
+def test_the_plot_style_reruns_all_plots_only(rebuilt):
+    rebuilt.edit("scripts/support/paper.mplstyle", "font.size: 8", "font.size: 9")
+    assert rebuilt.reruns() == PLOTS
+
+
+def users_of(module: str) -> set[str]:
+    """Rules whose script imports ``module``, found independently by following import statements."""
+
+    def imports(path):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and node.module:
+                yield node.module
+                yield from (f"{node.module}.{alias.name}" for alias in node.names)
+
+    def reaches(path, seen):
+        for name in imports(path):
+            package, *rest = name.split(".")
+            file = ROOT.joinpath({"hopper": "src"}.get(package, "scripts"), package, *rest)
+            file = file.with_suffix(".py")
+            if file.is_file() and name not in seen:
+                seen.add(name)
+                reaches(file, seen)
+        return seen
+
+    return {path.stem for path in (ROOT / "scripts").glob("*.py") if module in reaches(path, set())}
+
+
+@pytest.mark.parametrize("module", ["flow_factor", "velocity", "chebyshev", "errors"])
+def test_editing_a_module_reruns_exactly_its_users(rebuilt: Workflow, module: str):
+    path = rebuilt.path / f"src/hopper/{module}.py"
+    original = path.read_text(encoding="utf-8")
+    path.write_text(original + "\n# edited\n", encoding="utf-8")
+    users = users_of(f"hopper.{module}")
+    assert users, "no rule uses this module"
+    downstream = rebuilt.reruns()
+    direct = {job.split("/")[0] for job in downstream}
+    assert users <= direct
+    # What reruns beyond the users does so because its input is made again.
+    listing = rebuilt.snakemake("-n").stdout
+    for rule in direct - users:
+        block = listing[listing.index(f"rule {rule}:") :].split("\nrule ")[0]
+        assert "Input files updated by another job" in block
+    path.write_text(original, encoding="utf-8")
+    assert rebuilt.reruns() == set(), "reverting must rerun nothing"
+
+
+def test_touching_a_module_reruns_nothing(rebuilt):
+    for path in (rebuilt.path / "src/hopper").glob("*.py"):
+        os.utime(path, (time.time() + 60, time.time() + 60))
+    assert rebuilt.reruns() == set()
+
+
+def test_one_figure_can_be_asked_for(fresh):
+    assert fresh.reruns("figures/fig_3_1.png") == {"solve_radial/fig_3_1", "plot_fig_3_1"}

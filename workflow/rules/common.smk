@@ -1,0 +1,26 @@
+# =================================================================================================
+# Common: configuration check, import paths, and the code each rule depends on
+# =================================================================================================
+
+import sys
+from pathlib import Path
+
+from snakemake.exceptions import WorkflowError
+
+ROOT = Path(workflow.basedir)
+sys.path = [str(ROOT / "src"), str(ROOT / "scripts"), *sys.path]
+
+from support import code_graph, configuration
+
+code_graph.let_scripts_import(ROOT)
+try:
+    configuration.check(config, ROOT / "workflow/schemas/config.schema.yaml")
+except configuration.ConfigurationError as error:
+    raise WorkflowError(str(error)) from None
+
+FIGURES = []
+
+
+def code_of(script):
+    """Modules a script imports, directly or not. Inputs, so that editing one reruns its users."""
+    return code_graph.modules_used_by(ROOT, f"scripts/{script}.py")

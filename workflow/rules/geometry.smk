@@ -1,0 +1,26 @@
+# =================================================================================================
+# Figure 1.1: geometry and coordinates
+# =================================================================================================
+
+FIGURES += ["fig_1_1"]
+
+
+rule plot_fig_1_1:
+    input:
+        code=code_of("plot_fig_1_1"),
+    output:
+        png=report(
+            "figures/fig_1_1.png", caption="../report/fig_1_1.rst", category="1 Introduction"
+        ),
+        pdf="figures/fig_1_1.pdf",
+    log:
+        "logs/plot_fig_1_1.log",
+    benchmark:
+        "logs/plot_fig_1_1.benchmark.tsv"
+    conda:
+        "../../envs/hopper.yaml"
+    threads: 1
+    params:
+        **config["fig_1_1"],
+    script:
+        "../../scripts/plot_fig_1_1.py"
