@@ -1,5 +1,8 @@
 """Typed errors. Messages are one line, in degrees, and name the remedy."""
 
+from math import degrees, pi
+from typing import Self
+
 
 class HopperError(Exception):
     """Base of every error this package raises on purpose."""
@@ -39,3 +42,24 @@ class SingularVelocityError(HopperError):
 
 class ConvergenceError(HopperError):
     """An iteration did not reach an acceptable error; the message names the achieved one."""
+
+
+class TangencyError(HopperError):
+    """A characteristic is tangent to the radial direction: the linear problem is not posed.
+
+    It happens where psi reaches pi/4 - delta/2; ``theta`` (radians) is the first such angle found.
+    """
+
+    def __init__(self, message: str, theta: float) -> None:
+        super().__init__(message)
+        self.theta = theta
+
+    @classmethod
+    def at(cls, delta: float, theta: float) -> Self:
+        """Return the error for a material (radians) and the place of tangency (radians)."""
+        return cls(
+            f"linear stability is not defined: psi reaches pi/4 - delta/2 = "
+            f"{degrees(pi / 4 - delta / 2):.6g} deg at theta = {degrees(theta):.6g} deg, where a "
+            "characteristic is tangent to the radial direction; lower the wall friction",
+            theta,
+        )

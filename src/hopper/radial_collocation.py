@@ -224,8 +224,8 @@ def _newton_step(hopper: Hopper, grid: Grid, closure: Closure, u: Array) -> tupl
     right = np.zeros((u.size, 2))
     right[:, 0] = -residual
     right[-1, 1] = 1.0
-    solved: Array = np.linalg.solve(jacobian, right)
-    return solved[:, 0], solved[:, 1]
+    step, tangent = np.linalg.solve(jacobian, right).T
+    return step, tangent
 
 
 def _size(step: Array, u: Array) -> float:

@@ -1,0 +1,104 @@
+"""The vertical line that eigenvalues of large modulus approach, by quadrature.
+
+To leading WKB order a wave that runs along both characteristics c = (-sin 2psi -+ cos delta) / q
+between the axis and the wall grows at the mean rate Lambda, the limit of Re(lambda) for
+|Im(lambda)| -> infinity; modes of one parity are spaced evenly in Im(lambda).
+"""
+
+from dataclasses import dataclass
+from math import cos, pi
+
+import numpy as np
+
+from hopper import chebyshev
+from hopper.chebyshev import Array
+from hopper.errors import ConvergenceError, TangencyError
+from hopper.linearisation import coefficients
+from hopper.radial import RadialSolution
+
+_SIZES = (24, 36, 54, 80, 120, 180, 270, 400)
+_TOLERANCE = 1e-13
+_ACCEPTABLE = 1e-6
+
+
+@dataclass(frozen=True)
+class AsymptoticLine:
+    """Limit ``abscissa`` of Re(lambda) and ``spacing`` in Im(lambda) of modes of one parity.
+
+    ``error_estimate`` is that of the abscissa: the decay of the integrand's Chebyshev
+    coefficients and the error of the radial solution.
+    """
+
+    abscissa: float
+    spacing: float
+    error_estimate: float
+
+
+def asymptotic_line(solution: RadialSolution) -> AsymptoticLine:
+    """Return the asymptotic line of a radial solution.
+
+    Raises
+    ------
+    TangencyError
+        If psi reaches pi/4 - delta/2, where the line diverges.
+    ConvergenceError
+        If the quadrature does not reach 1e-6; psi is then too close to that value.
+    """
+    require_no_tangency(solution)
+    half_angle = solution.hopper.half_angle
+    for size in _SIZES:
+        growth, time = _integrands(solution, half_angle * chebyshev.half_nodes(size))
+        # The integrands are even: Clenshaw-Curtis on the full grid, by its positive half.
+        weights = chebyshev.clenshaw_curtis_weights(2 * size)[size:]
+        travel_time = float(weights @ time)
+        abscissa = float(weights @ growth) / travel_time
+        tail = max(_tail(growth - abscissa * time), abs(abscissa) * _tail(time)) / travel_time
+        if tail < _TOLERANCE * max(1.0, abs(abscissa)):
+            break
+    error = tail + _sensitivity(growth, time) * solution.error_estimate
+    if error > _ACCEPTABLE * max(1.0, abs(abscissa)):
+        raise ConvergenceError(
+            f"asymptotic line not resolved: error {error:.1e}; psi is too close to "
+            "pi/4 - delta/2, lower the wall friction"
+        )
+    return AsymptoticLine(abscissa, pi / (half_angle * travel_time), error)
+
+
+def require_no_tangency(solution: RadialSolution) -> None:
+    """Check that psi stays below pi/4 - delta/2.
+
+    Raises
+    ------
+    TangencyError
+        If it does not.
+    """
+    limit = pi / 4 - solution.hopper.delta / 2
+    # The nodes see the maximum to second order in their distance; look closer only near the limit.
+    if solution.psi.max() < 0.98 * limit:
+        return
+    theta, largest = solution.psi_maximum()
+    if largest >= limit:
+        raise TangencyError.at(solution.hopper.delta, theta)
+
+
+def _integrands(solution: RadialSolution, theta: Array) -> tuple[Array, Array]:
+    """Return (P cos delta + Q sin 2psi) / (s + cos 2psi) and cos delta / (s + cos 2psi)."""
+    hopper = solution.hopper
+    at = coefficients(solution, theta)
+    sigma, psi, _, _ = solution.fields(theta)
+    rho = 2 * hopper.s * sigma / cos(hopper.delta)
+    p = (at.f11 + at.f22) / 2
+    q = (at.f12 / rho + rho * at.f21) / 2
+    speed = hopper.s + np.cos(2 * psi)
+    growth = (p * cos(hopper.delta) + q * np.sin(2 * psi)) / speed
+    return growth, cos(hopper.delta) / speed
+
+
+def _tail(values: Array) -> float:
+    """Size of the last Chebyshev coefficients of an even function on the half grid."""
+    return float(np.abs(chebyshev.half_coefficients(values, "even")[-3:]).max())
+
+
+def _sensitivity(growth: Array, time: Array) -> float:
+    """Amplification of relative errors of the fields by the integrand, an order of magnitude."""
+    return float(np.abs(growth).max() / np.abs(time).min())
