@@ -11,6 +11,7 @@ include: "workflow/rules/common.smk"
 include: "workflow/rules/geometry.smk"
 include: "workflow/rules/radial.smk"
 include: "workflow/rules/flow_factor.smk"
+include: "workflow/rules/spectrum.smk"
 
 
 rule all:

@@ -29,6 +29,26 @@ def check(config: Mapping[str, Any], schema_path: str | Path) -> None:
     error = best_match(jsonschema.Draft202012Validator(schema).iter_errors(config))
     if error is not None:
         raise ConfigurationError(_explain(error, schema_path))
+    _check_order(config)
+
+
+def _check_order(config: Mapping[str, Any]) -> None:
+    """Check what a schema cannot: relations between two keys."""
+    for name, spectrum in config["spectra"].items():
+        if spectrum["coarse_nodes"] >= spectrum["nodes"]:
+            raise ConfigurationError(
+                f"config key 'spectra.{name}.coarse_nodes': {spectrum['coarse_nodes']} is not "
+                f"below nodes = {spectrum['nodes']}: the first mesh must be the finer one"
+            )
+    for key, value in _leaves(config, ""):
+        if key.endswith(".stop") and value < _get(config, key.removesuffix("stop") + "start"):
+            raise ConfigurationError(f"config key '{key}': {value} is below start")
+
+
+def _get(config: Mapping[str, Any], key: str) -> Any:
+    for name in key.split("."):
+        config = config[name]
+    return config
 
 
 def _leaves(value: Any, key: str) -> Iterator[tuple[str, Any]]:

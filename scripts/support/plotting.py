@@ -23,6 +23,7 @@ MODEL_STYLES = {
     "mohr-coulomb": {"linestyle": "-", "label": "Mohr-Coulomb"},
     "von-mises": {"linestyle": "--", "label": "von Mises"},
 }
+GEOMETRY_COLORS = {"wedge": BLUE, "cone": ORANGE}
 STYLE = Path(__file__).with_name("paper.mplstyle")
 
 

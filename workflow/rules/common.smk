@@ -21,6 +21,12 @@ except configuration.ConfigurationError as error:
 FIGURES = []
 
 
+wildcard_constraints:
+    figure=r"fig_\w+",
+    geometry="wedge|cone",
+    nodes=r"\d+",
+
+
 def code_of(script):
     """Modules a script imports, directly or not. Inputs, so that editing one reruns its users."""
     return code_graph.modules_used_by(ROOT, f"scripts/{script}.py")

@@ -15,8 +15,6 @@ rule solve_radial:
         "logs/solve_radial/{figure}.log",
     benchmark:
         "logs/solve_radial/{figure}.benchmark.tsv"
-    wildcard_constraints:
-        figure="|".join(config["radial"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1

@@ -1,0 +1,44 @@
+"""Figure 4.2 in physical mode: the modes of the flow's parity approach the asymptotic line."""
+
+import numpy as np
+
+from support import artifacts, fields, jobs, plotting
+
+
+def plot_fig_4_2_physical(
+    wedge: str, cone: str, wedge_line: str, cone_line: str, png: str, pdf: str
+) -> None:
+    """Plot the kept physical modes with the line (top), and their distance to it (bottom)."""
+    figure, axes = plotting.subplots(2, 2, height=5.2)
+    columns = (("wedge", wedge, wedge_line), ("cone", cone, cone_line))
+    for column, (geometry, spectrum, stability) in enumerate(columns):
+        data, line = artifacts.read(spectrum), float(artifacts.read(stability).line)
+        kept = (data.kept.to_numpy() == 1) & (data.half.to_numpy() == 0)
+        modes = fields.as_complex(data, "eigenvalue")[kept]
+        color = plotting.GEOMETRY_COLORS[geometry]
+        top, bottom = axes[:, column]
+        top.axvline(0, color="0.5", linewidth=0.6)
+        top.axvline(line, color=plotting.BLACK, linewidth=0.8, linestyle="--",
+                    label=rf"$\Lambda$ = {line:.6f}")  # fmt: skip
+        top.plot(modes.real, modes.imag, "o", markersize=2.6, color=color, label="physical modes")
+        top.set_title(f"{geometry}: {modes.size} physical modes")
+        top.set_xlabel(r"Re $\lambda$")
+        top.set_ylabel(r"Im $\lambda$")
+        top.margins(x=0.12)
+        top.legend(loc="lower left")
+        upper = modes[modes.imag > 0]
+        bottom.axvline(0, color=plotting.BLACK, linewidth=0.8, linestyle="--", label=r"$\Lambda$")
+        bottom.plot(upper.real - line, upper.imag, "o-", markersize=2.6, linewidth=0.5, color=color)
+        bottom.set_yscale("log")
+        bottom.set_title(f"{geometry}: approach to the line")
+        bottom.set_xlabel(r"Re $\lambda - \Lambda$")
+        bottom.set_ylabel(r"Im $\lambda$")
+        widest = float(np.abs(upper.real - line).max())
+        bottom.set_xlim(-1.15 * widest, 1.15 * widest)
+        bottom.ticklabel_format(axis="x", style="sci", scilimits=(-2, 2), useMathText=True)
+        bottom.legend()
+    plotting.save(figure, png, pdf)
+
+
+if __name__ == "__main__":
+    jobs.run(plot_fig_4_2_physical, snakemake)  # type: ignore[name-defined]  # noqa: F821
