@@ -12,6 +12,7 @@ include: "workflow/rules/geometry.smk"
 include: "workflow/rules/radial.smk"
 include: "workflow/rules/flow_factor.smk"
 include: "workflow/rules/spectrum.smk"
+include: "workflow/rules/transient.smk"
 
 
 rule all:

@@ -1,14 +1,11 @@
 """Discrete spectrum of M on one mesh."""
 
 import logging
-from math import atan, radians
 
 import xarray as xr
 
-from hopper.problem import Hopper, as_geometry
-from hopper.radial import solve_radial
 from hopper.spectrum import mesh_spectrum
-from support import artifacts, fields, jobs
+from support import artifacts, fields, hoppers, jobs
 
 
 def compute_spectrum(
@@ -22,8 +19,7 @@ def compute_spectrum(
     nodes: int,
 ) -> None:
     """Compute all eigenvalues with their parity and the tails of their eigenvectors."""
-    hopper = Hopper(as_geometry(geometry), radians(delta_deg), radians(half_angle_deg))
-    solution = solve_radial(hopper, atan(mu))
+    solution = hoppers.radial_solution(geometry, delta_deg, half_angle_deg, mu)
     spectrum = mesh_spectrum(solution, nodes)
     logging.info("%s, %d nodes: %d eigenvalues", geometry, nodes, spectrum.eigenvalues.size)
     dataset = xr.Dataset(

@@ -1,14 +1,11 @@
 """Low modes in physical mode, the asymptotic line, and the spectral abscissa they give."""
 
 import logging
-from math import atan, radians
 
 import xarray as xr
 
-from hopper.problem import Hopper, as_geometry
-from hopper.radial import solve_radial
 from hopper.stability import stability
-from support import artifacts, fields, jobs
+from support import artifacts, fields, hoppers, jobs
 
 
 def compute_stability(
@@ -21,8 +18,7 @@ def compute_stability(
     mu: float,
 ) -> None:
     """Compute the verdict of stability that needs no large mesh."""
-    hopper = Hopper(as_geometry(geometry), radians(delta_deg), radians(half_angle_deg))
-    result = stability(solve_radial(hopper, atan(mu)))
+    result = stability(hoppers.radial_solution(geometry, delta_deg, half_angle_deg, mu))
     logging.info(
         "%s: abscissa %.10f (%s), line %.10f",
         geometry,

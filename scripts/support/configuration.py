@@ -41,8 +41,9 @@ def _check_order(config: Mapping[str, Any]) -> None:
                 f"below nodes = {spectrum['nodes']}: the first mesh must be the finer one"
             )
     for key, value in _leaves(config, ""):
-        if key.endswith(".stop") and value < _get(config, key.removesuffix("stop") + "start"):
-            raise ConfigurationError(f"config key '{key}': {value} is below start")
+        parent, _, name = key.rpartition(".")
+        if name == "stop" and value <= _get(config, parent).get("start", -math.inf):
+            raise ConfigurationError(f"config key '{key}': {value} must be above start")
 
 
 def _get(config: Mapping[str, Any], key: str) -> Any:

@@ -8,6 +8,7 @@ from typing import Any
 from hopper.errors import HopperError
 from support.artifacts import ArtifactError
 
+Progress = Callable[[int, int], None]
 _FORMAT = "%(asctime)s %(levelname)-7s %(message)s"
 
 
@@ -34,3 +35,16 @@ def run(function: Callable[..., None], job: Any) -> None:
         logging.exception("%s: unexpected error", job.rule)
         sys.exit(1)
     logging.info("%s: done", job.rule)
+
+
+def progress(logger: logging.Logger, label: str, steps: int = 4) -> Progress:
+    """Return a callable(done, total) that logs about ``steps`` times on the way."""
+    reported = 0
+
+    def report(done: int, total: int) -> None:
+        nonlocal reported
+        if done == total or steps * done // total > reported:
+            reported = steps * done // total
+            logger.info("%s: %d of %d", label, done, total)
+
+    return report

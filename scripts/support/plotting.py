@@ -11,6 +11,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
 from support.artifacts import replacing
@@ -61,3 +63,19 @@ def degree_ticks(axis: Axes, half_angle: float, step: float) -> None:
 def sequence(count: int) -> list[Any]:
     """Return colours that order by lightness, for curves of an increasing parameter."""
     return [matplotlib.colormaps["viridis"](x) for x in np.linspace(0, 0.88, count)]
+
+
+def level_norm(levels: Sequence[float]) -> Normalize:
+    """Return the colour scale of contours at the given levels."""
+    margin = 0.5 * (levels[-1] - levels[0]) / max(1, len(levels) - 1)
+    return Normalize(levels[0] - margin, levels[-1] + margin)
+
+
+def level_bar(
+    figure: Figure, axes: Any, cmap: str, norm: Normalize, levels: Sequence[float], label: str
+) -> None:
+    """Add a colour bar whose ticks are the contour levels, as powers of ten."""
+    bar = figure.colorbar(ScalarMappable(norm, cmap), ax=axes, location="bottom", shrink=0.6,
+                          aspect=40, label=label)  # fmt: skip
+    bar.set_ticks(levels, labels=[rf"$10^{{{level:g}}}$" for level in levels])
+    bar.ax.minorticks_off()

@@ -25,6 +25,7 @@ wildcard_constraints:
     figure=r"fig_\w+",
     geometry="wedge|cone",
     nodes=r"\d+",
+    mode="paper|physical",
 
 
 def code_of(script):

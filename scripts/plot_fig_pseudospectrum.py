@@ -1,0 +1,52 @@
+"""Pseudospectrum of M, which the paper used and did not print."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from support import artifacts, fields, jobs, plotting
+
+
+def plot_fig_pseudospectrum(
+    wedge_paper: str,
+    cone_paper: str,
+    wedge_physical: str,
+    cone_physical: str,
+    png: str,
+    pdf: str,
+    *,
+    levels_log10: Sequence[float],
+) -> None:
+    """Plot contours of sigma_min(z I - M), labelled in powers of ten, with the eigenvalues."""
+    levels = sorted(levels_log10)
+    norm = plotting.level_norm(levels)
+    figure, axes = plotting.subplots(2, 2, height=6.2, sharex=True, sharey=True)
+    paths = ((wedge_paper, cone_paper), (wedge_physical, cone_physical))
+    for row, mode in enumerate(("paper", "physical")):
+        for column, geometry in enumerate(("wedge", "cone")):
+            axis, data = axes[row, column], artifacts.read(paths[row][column])
+            # A grid point on an eigenvalue may have the value 0.
+            height = np.log10(np.maximum(data.sigma_min, np.finfo(float).tiny))
+            axis.contourf(data["real"], data["imag"], height, levels=levels, cmap=_CMAP,
+                          norm=norm, extend="both", alpha=0.45)  # fmt: skip
+            axis.contour(data["real"], data["imag"], height, levels=levels, cmap=_CMAP,
+                         norm=norm, linewidths=0.8)  # fmt: skip
+            values = fields.as_complex(data, "eigenvalue")
+            axis.plot(values.real, values.imag, "k.", markersize=2.5)
+            axis.axvline(0, color="0.5", linewidth=0.6)
+            axis.set_xlim(data["real"][0], data["real"][-1])
+            axis.set_ylim(data["imag"][0], data["imag"][-1])
+            axis.set_title(f"{geometry}, {mode} mode, {_NORMS[mode]} norm")
+    for axis in axes[1]:
+        axis.set_xlabel(r"Re $z$")
+    for axis in axes[:, 0]:
+        axis.set_ylabel(r"Im $z$")
+    plotting.level_bar(figure, axes, _CMAP, norm, levels, r"$\varepsilon = \sigma_{\min}(zI - M)$")
+    plotting.save(figure, png, pdf)
+
+
+_CMAP = "viridis"
+_NORMS = {"paper": "discrete", "physical": "$L_2$"}
+
+if __name__ == "__main__":
+    jobs.run(plot_fig_pseudospectrum, snakemake)  # type: ignore[name-defined]  # noqa: F821
