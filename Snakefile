@@ -13,6 +13,7 @@ include: "workflow/rules/radial.smk"
 include: "workflow/rules/flow_factor.smk"
 include: "workflow/rules/spectrum.smk"
 include: "workflow/rules/transient.smk"
+include: "workflow/rules/domain.smk"
 
 
 rule all:

@@ -67,7 +67,7 @@ def compute_sensitivity(
             **fields.complex_number(
                 "mode", "eigenvalue", np.concatenate(list(kept.values())), "kept eigenvalue"
             ),
-            "half": fields.half("mode", codes),
+            "half": modes.half("mode", codes),
             "condition": fields.number("mode", conditions, "condition number of the eigenvalue"),
             "basis_condition": fields.number(
                 (), condition_number(bases), "kappa(V) of the kept eigenvectors"

@@ -5,7 +5,7 @@ import logging
 import xarray as xr
 
 from hopper.spectrum import mesh_spectrum
-from support import artifacts, fields, hoppers, jobs
+from support import artifacts, fields, hoppers, jobs, modes
 
 
 def compute_spectrum(
@@ -27,7 +27,7 @@ def compute_spectrum(
             **fields.complex_number(
                 "mode", "eigenvalue", spectrum.eigenvalues, "eigenvalue of M by modulus"
             ),
-            "half": fields.half("mode", spectrum.half),
+            "half": modes.half("mode", spectrum.half),
             "eigenvector_tail": fields.number("mode", spectrum.tail, _TAIL),
             "error_radial": fields.number(
                 (), solution.error_estimate, "error estimate of the radial solution"

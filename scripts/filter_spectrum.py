@@ -5,7 +5,7 @@ import logging
 import xarray as xr
 
 from hopper.spectrum import MeshSpectrum, convergence_filter, unbroken_run
-from support import artifacts, fields, jobs
+from support import artifacts, fields, jobs, modes
 
 
 def filter_spectrum(
@@ -45,7 +45,7 @@ def filter_spectrum(
             **fields.complex_number(
                 "mode", "eigenvalue", result.fine.eigenvalues, "eigenvalue of M by modulus"
             ),
-            "half": fields.half("mode", result.fine.half),
+            "half": modes.half("mode", result.fine.half),
             "eigenvector_tail": fields.number("mode", result.fine.tail, "tail of the eigenvector"),
             "change": fields.number(
                 "mode", result.change, "relative distance to the one-to-one partner, inf without"
@@ -57,7 +57,7 @@ def filter_spectrum(
             "kept_as_worded": fields.flag(
                 "mode", result.kept_as_worded, "kept by the filter as the paper words it", _NO_YES
             ),
-            "reason": fields.reason("mode", result.reason),
+            "reason": modes.reason("mode", result.reason),
             "run_start": fields.number((), run[0], "start of the unbroken run kept as worded"),
             "run_stop": fields.number((), run[1], "end of the unbroken run kept as worded"),
         }

@@ -5,8 +5,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from hopper.spectrum import HALVES, REASONS
-
 Variable = tuple[tuple[str, ...] | str, Any, dict[str, Any]]
 
 
@@ -37,14 +35,9 @@ def flag(
     )
 
 
-def half(dimension: str, values: Any) -> Variable:
-    """Return the parity of modes."""
-    return flag(dimension, values, "parity: physical is sigma1 even and psi1 odd", HALVES)
-
-
-def reason(dimension: str, values: Any) -> Variable:
-    """Return the filter's reasons."""
-    return flag(dimension, values, "why the filter keeps or rejects the eigenvalue", REASONS)
+def axis(start: float, stop: float, points: int) -> np.ndarray:
+    """Return equally spaced values."""
+    return np.linspace(start, stop, points)
 
 
 def complex_number(dimension: str, name: str, values: Any, long_name: str) -> dict[str, Variable]:

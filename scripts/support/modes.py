@@ -1,13 +1,25 @@
-"""Which eigenvalues of a filtered spectrum enter what is computed from kept modes."""
+"""Modes in artifacts: their parity, the filter's reasons, and which of them are kept."""
+
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from hopper.collocation import Half
-from hopper.spectrum import HALVES
+from hopper.spectrum import HALVES, REASONS
 from support import fields
 
 MODES = ("paper", "physical")
+
+
+def half(dimension: str, values: Any) -> fields.Variable:
+    """Return the parity of modes."""
+    return fields.flag(dimension, values, "parity: physical is sigma1 even and psi1 odd", HALVES)
+
+
+def reason(dimension: str, values: Any) -> fields.Variable:
+    """Return the filter's reasons."""
+    return fields.flag(dimension, values, "why the filter keeps or rejects the eigenvalue", REASONS)
 
 
 def kept_by_half(data: xr.Dataset, mode: str) -> dict[Half, np.ndarray]:

@@ -12,13 +12,15 @@ import numpy as np
 
 from hopper import chebyshev
 from hopper.chebyshev import Array
-from hopper.errors import ConvergenceError, TangencyError
-from hopper.linearisation import coefficients
+from hopper.errors import ConvergenceError
+from hopper.linearisation import coefficients_on_half_grid, require_no_tangency
 from hopper.radial import RadialSolution
 
 _SIZES = (24, 36, 54, 80, 120, 180, 270, 400)
 _TOLERANCE = 1e-13
 _ACCEPTABLE = 1e-6
+# Rounding of the quadrature and of q = s - cos(2 psi), which is small near the tangency.
+_ROUNDING = 1e-13
 
 
 @dataclass(frozen=True)
@@ -26,7 +28,7 @@ class AsymptoticLine:
     """Limit ``abscissa`` of Re(lambda) and ``spacing`` in Im(lambda) of modes of one parity.
 
     ``error_estimate`` is that of the abscissa: the decay of the integrand's Chebyshev
-    coefficients and the error of the radial solution.
+    coefficients, the error of the radial solution, and rounding.
     """
 
     abscissa: float
@@ -40,14 +42,14 @@ def asymptotic_line(solution: RadialSolution) -> AsymptoticLine:
     Raises
     ------
     TangencyError
-        If psi reaches pi/4 - delta/2, where the line diverges.
+        If psi reaches pi/4 - delta/2.
     ConvergenceError
         If the quadrature does not reach 1e-6; psi is then too close to that value.
     """
     require_no_tangency(solution)
     half_angle = solution.hopper.half_angle
     for size in _SIZES:
-        growth, time = _integrands(solution, half_angle * chebyshev.half_nodes(size))
+        growth, time = _integrands(solution, size)
         # The integrands are even: Clenshaw-Curtis on the full grid, by its positive half.
         weights = chebyshev.clenshaw_curtis_weights(2 * size)[size:]
         travel_time = float(weights @ time)
@@ -56,6 +58,7 @@ def asymptotic_line(solution: RadialSolution) -> AsymptoticLine:
         if tail < _TOLERANCE * max(1.0, abs(abscissa)):
             break
     error = tail + _sensitivity(growth, time) * solution.error_estimate
+    error += _ROUNDING * max(1.0, abs(abscissa))
     if error > _ACCEPTABLE * max(1.0, abs(abscissa)):
         raise ConvergenceError(
             f"asymptotic line not resolved: error {error:.1e}; psi is too close to "
@@ -64,33 +67,15 @@ def asymptotic_line(solution: RadialSolution) -> AsymptoticLine:
     return AsymptoticLine(abscissa, pi / (half_angle * travel_time), error)
 
 
-def require_no_tangency(solution: RadialSolution) -> None:
-    """Check that psi stays below pi/4 - delta/2.
-
-    Raises
-    ------
-    TangencyError
-        If it does not.
-    """
-    limit = pi / 4 - solution.hopper.delta / 2
-    # The nodes see the maximum to second order in their distance; look closer only near the limit.
-    if solution.psi.max() < 0.98 * limit:
-        return
-    theta, largest = solution.psi_maximum()
-    if largest >= limit:
-        raise TangencyError.at(solution.hopper.delta, theta)
-
-
-def _integrands(solution: RadialSolution, theta: Array) -> tuple[Array, Array]:
+def _integrands(solution: RadialSolution, size: int) -> tuple[Array, Array]:
     """Return (P cos delta + Q sin 2psi) / (s + cos 2psi) and cos delta / (s + cos 2psi)."""
     hopper = solution.hopper
-    at = coefficients(solution, theta)
-    sigma, psi, _, _ = solution.fields(theta)
-    rho = 2 * hopper.s * sigma / cos(hopper.delta)
+    at = coefficients_on_half_grid(solution, size)
+    rho = 2 * hopper.s * at.sigma / cos(hopper.delta)
     p = (at.f11 + at.f22) / 2
     q = (at.f12 / rho + rho * at.f21) / 2
-    speed = hopper.s + np.cos(2 * psi)
-    growth = (p * cos(hopper.delta) + q * np.sin(2 * psi)) / speed
+    speed = hopper.s + np.cos(2 * at.psi)
+    growth = (p * cos(hopper.delta) + q * np.sin(2 * at.psi)) / speed
     return growth, cos(hopper.delta) / speed
 
 

@@ -121,6 +121,12 @@ def half_interpolation_matrix(m: int, x: ArrayLike, parity: Parity) -> Array:
     return _fold(interpolation_matrix(2 * m, x), m, parity)
 
 
+@lru_cache(maxsize=256)
+def half_transfer_matrix(old: int, new: int, parity: Parity) -> Array:
+    """Return the matrix, shape (new, old), from one half grid to another."""
+    return _frozen(half_interpolation_matrix(old, half_nodes(new), parity))
+
+
 def half_coefficients(values: Array, parity: Parity) -> Array:
     """Return the ``m`` Chebyshev coefficients that parity leaves (T0, T2, ... or T1, T3, ...)."""
     mirrored = values[::-1] if parity == "even" else -values[::-1]

@@ -14,8 +14,13 @@ import numpy as np
 
 from hopper import chebyshev
 from hopper.chebyshev import Array
-from hopper.errors import InvalidParameterError, TangencyError
-from hopper.linearisation import Coefficients, coefficients
+from hopper.errors import InvalidParameterError
+from hopper.linearisation import (
+    Coefficients,
+    coefficients,
+    coefficients_on_half_grid,
+    require_no_tangency,
+)
 from hopper.radial import RadialSolution
 
 Half = Literal["physical", "mirrored"]
@@ -31,11 +36,12 @@ def paper_matrix(solution: RadialSolution, n: int, psi_scale: float = 1.0) -> Ar
     InvalidParameterError
         If n is odd (a node on the axis, where the equations are singular) or less than 4.
     TangencyError
-        If a characteristic is tangent to the radial direction.
+        If psi reaches pi/4 - delta/2.
     """
     require_even(n)
     x = chebyshev.nodes(n)
-    at = _hyperbolic(solution, solution.hopper.half_angle * x, psi_scale)
+    require_no_tangency(solution)
+    at = coefficients(solution, solution.hopper.half_angle * x, psi_scale)
     d = chebyshev.differentiation_matrix(n) / solution.hopper.half_angle
     matrix = _assemble(at, d, d)
     inner = np.delete(np.arange(2 * n), [n, 2 * n - 1])
@@ -55,11 +61,13 @@ def half_matrix(
     InvalidParameterError
         If m < 2.
     TangencyError
-        If a characteristic is tangent to the radial direction.
+        If psi reaches pi/4 - delta/2.
     """
-    require_even(2 * m)
+    if m < 2:
+        raise InvalidParameterError(f"m = {m!r} half-grid nodes: give at least 2")
+    require_no_tangency(solution)
     half_angle = solution.hopper.half_angle
-    at = _hyperbolic(solution, half_angle * chebyshev.half_nodes(m), psi_scale)
+    at = coefficients_on_half_grid(solution, m, psi_scale)
     even = chebyshev.half_differentiation_matrix(m, "even") / half_angle
     odd = chebyshev.half_differentiation_matrix(m, "odd") / half_angle
     d_sigma, d_psi = (even, odd) if half == "physical" else (odd, even)
@@ -79,13 +87,6 @@ def require_even(n: int) -> None:
             f"n = {n!r} nodes: give an even integer of at least 4, so that no node falls on the "
             "axis, where the equations are singular"
         )
-
-
-def _hyperbolic(solution: RadialSolution, theta: Array, psi_scale: float) -> Coefficients:
-    at = coefficients(solution, theta, psi_scale)
-    if np.any(at.q >= 0):
-        raise TangencyError.at(solution.hopper.delta, float(np.abs(theta[at.q >= 0]).min()))
-    return at
 
 
 def _assemble(at: Coefficients, d_sigma: Array, d_psi: Array) -> Array:

@@ -45,9 +45,9 @@ class ConvergenceError(HopperError):
 
 
 class TangencyError(HopperError):
-    """A characteristic is tangent to the radial direction: the linear problem is not posed.
+    """A characteristic is tangent to the arcs r = const: t = log r is not like time beyond.
 
-    It happens where psi reaches pi/4 - delta/2; ``theta`` (radians) is the first such angle found.
+    It happens where psi reaches pi/4 - delta/2, first at ``theta`` (radians).
     """
 
     def __init__(self, message: str, theta: float) -> None:
@@ -60,6 +60,6 @@ class TangencyError(HopperError):
         return cls(
             f"linear stability is not defined: psi reaches pi/4 - delta/2 = "
             f"{degrees(pi / 4 - delta / 2):.6g} deg at theta = {degrees(theta):.6g} deg, where a "
-            "characteristic is tangent to the radial direction; lower the wall friction",
+            "characteristic is tangent to the arc r = const; lower the wall friction",
             theta,
         )

@@ -23,7 +23,7 @@ from hopper.radial_collocation import Closure, Member, crude_start, half_grid, n
 
 End = Literal["fold", "wall", "interior", "axis"]
 
-_SIZE = 48
+_SIZE = 36
 _FIRST_STEP = 0.05
 _LARGEST_STEP = 0.2
 _SMALLEST_STEP = 1e-3
@@ -95,14 +95,20 @@ def smooth_wall_member(hopper: Hopper) -> Member:
 def family(hopper: Hopper) -> Iterator[Member]:
     """Yield members in order of increasing tau, from the smooth wall to the end of the family.
 
-    The parameter is psi_w where psi_w changes fast, tau where tau does.
-
     Raises
     ------
     NoRadialSolutionError
         As :func:`smooth_wall_member`.
     """
-    member, step = smooth_wall_member(hopper), _FIRST_STEP
+    return family_from(smooth_wall_member(hopper))
+
+
+def family_from(member: Member) -> Iterator[Member]:
+    """Yield members in order of increasing tau, from the given one to the end of the family.
+
+    The parameter is psi_w where psi_w changes fast, tau where tau does.
+    """
+    hopper, member, step = member.hopper, _regrid(member), _FIRST_STEP
     yield member
     while not _ended(member) and step > _SMALLEST_STEP:
         direction = np.array([member.tangent[-2], member.tangent[-1] / (1 + abs(member.tau))])
@@ -154,11 +160,23 @@ def friction_limit(hopper: Hopper) -> FrictionLimit:
     ConvergenceError
         If the fold is not resolved.
     """
-    last = smooth_wall_member(hopper)
-    for member in family(hopper):
-        if _past_fold(member):
-            return _fold(last, member)
-        last = member
+    return friction_limit_from(smooth_wall_member(hopper))
+
+
+def friction_limit_from(member: Member) -> FrictionLimit:
+    """Return the same from any member of the physical branch; the closer to the limit, the faster.
+
+    Raises
+    ------
+    ConvergenceError
+        If the fold is not resolved.
+    """
+    hopper, last = member.hopper, member
+    for following in family_from(member):
+        if _past_fold(following) and (top := _fold(last, following)):
+            phi = hopper.material.friction_angle(hopper.delta, top.psi_wall)
+            return FrictionLimit(phi, "fold", top.tau, top.psi_wall, top.error)
+        last = following
     law = hopper.material
     if last.psi_wall > law.singular_angle(hopper.delta) - _WALL_MARGIN:
         singular, phi = law.singular_angle(hopper.delta), law.largest_friction_angle(hopper.delta)
@@ -172,27 +190,44 @@ def friction_limit(hopper: Hopper) -> FrictionLimit:
     return FrictionLimit(reached, "interior", last.tau, last.psi_wall, uncertainty)
 
 
-def _between(member: Member, tau: float) -> Member:
-    """Return the resolved member at a tau close to that of ``member``."""
-    closure = Closure("tau", tau)
-    near = newton(member.hopper, member.grid, closure, member.on(member.grid))
+def neighbour(member: Member, closure: Closure) -> Member:
+    """Return the resolved member with the given closure, close to ``member``.
+
+    Raises
+    ------
+    ConvergenceError
+        If it is not resolved.
+    """
+    near = newton(member.hopper, member.grid, closure, member.u)
     return refine(near or Member(member.hopper, member.grid, closure, member.u, member.tangent, 1))
 
 
-def _fold(below: Member, above: Member) -> FrictionLimit:
-    """Locate d psi_w / d tau = 0 between two members."""
+def _fold(below: Member, above: Member) -> Member | None:
+    """Locate d psi_w / d tau = 0 between two members; None if the slope's sign was noise."""
     start = above if above.grid.clustering == below.grid.clustering else below
 
-    def slope(log_tau: float) -> float:
-        return _between(start, exp(log_tau)).psi_wall_by_tau
+    def at(log_tau: float) -> Closure:
+        return Closure("tau", exp(log_tau))
 
-    top = _between(start, exp(brentq(slope, log(below.tau), log(above.tau), xtol=1e-10)))
-    phi = top.hopper.material.friction_angle(top.hopper.delta, top.psi_wall)
-    return FrictionLimit(phi, "fold", top.tau, top.psi_wall, top.error)
+    def coarse_slope(log_tau: float) -> float:
+        member = newton(start.hopper, start.grid, at(log_tau), start.u)
+        return (member or neighbour(start, at(log_tau))).psi_wall_by_tau
+
+    ends = log(below.tau), log(above.tau)
+    if not coarse_slope(ends[0]) > 0 > coarse_slope(ends[1]):
+        return None
+    root = brentq(coarse_slope, *ends, xtol=1e-8)
+    # One secant step on resolved members: psi_w is stationary, so its error is of second order.
+    left, right = (neighbour(start, at(root + shift)).psi_wall_by_tau for shift in (-1e-4, 1e-4))
+    return neighbour(start, at(root - 1e-4 + 2e-4 * left / (left - right)))
 
 
-def members_with_wall_angle(hopper: Hopper, psi_wall: float) -> list[Member]:
+def members_with_wall_angle(
+    hopper: Hopper, psi_wall: float, start: Member | None = None
+) -> list[Member]:
     """Return all resolved members with the given psi_w (radians), in order of increasing tau.
+
+    With ``start``, a member of the same hopper, only those of larger tau.
 
     Raises
     ------
@@ -202,10 +237,25 @@ def members_with_wall_angle(hopper: Hopper, psi_wall: float) -> list[Member]:
         If a member is not resolved.
     """
     found = []
-    for low, high in pairwise(family(hopper)):
+    members = family_from(start) if start else family(hopper)
+    for low, high in pairwise(_with_fold(members)):
         if (low.psi_wall - psi_wall) * (high.psi_wall - psi_wall) <= 0 != high.psi_wall - psi_wall:
             found += [_at_wall_angle(low, high, psi_wall)]
     return found
+
+
+def _with_fold(members: Iterator[Member]) -> Iterator[Member]:
+    """Insert the member at the fold when the walk passes it."""
+    last = next(members)
+    yield last
+    for member in members:
+        if _past_fold(member) and (top := _fold(last, member)):
+            yield top
+            yield member
+            break
+        yield member
+        last = member
+    yield from members
 
 
 def _at_wall_angle(low: Member, high: Member, psi_wall: float) -> Member:
@@ -219,9 +269,13 @@ def _at_wall_angle(low: Member, high: Member, psi_wall: float) -> Member:
         return refine(member)
     # Near the fold Newton in psi_w can slip to the other branch; tau cannot.
     tau = brentq(
-        lambda t: _between(low, t).psi_wall - psi_wall, low.tau, high.tau, xtol=1e-13, rtol=1e-14
+        lambda t: neighbour(low, Closure("tau", t)).psi_wall - psi_wall,
+        low.tau,
+        high.tau,
+        xtol=1e-13,
+        rtol=1e-14,
     )
-    return _between(low, tau)
+    return neighbour(low, Closure("tau", tau))
 
 
 def member_with_tau(hopper: Hopper, tau: float) -> Member:
@@ -238,7 +292,8 @@ def member_with_tau(hopper: Hopper, tau: float) -> Member:
     least = low.tau
     for high in family(hopper):
         if low.tau <= tau <= high.tau:
-            return _between(low if tau - low.tau < high.tau - tau else high, tau)
+            nearer = low if tau - low.tau < high.tau - tau else high
+            return neighbour(nearer, Closure("tau", tau))
         low = high
     raise NoRadialSolutionError(
         f"no radial solution with sigma_axis = {1 / tau if tau else np.inf:.6g}: "

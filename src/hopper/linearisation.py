@@ -10,13 +10,16 @@ depend on it, norms do.
 """
 
 from dataclasses import dataclass
+from math import pi
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.optimize import brentq
 
 from hopper.chebyshev import Array
-from hopper.errors import InvalidParameterError
+from hopper.errors import InvalidParameterError, TangencyError
 from hopper.radial import RadialSolution
+from hopper.radial_collocation import half_grid
 from hopper.yield_conditions import MOHR_COULOMB
 
 
@@ -24,10 +27,13 @@ from hopper.yield_conditions import MOHR_COULOMB
 class Coefficients:
     """Entries of A and F = B + (d - 2) C at n angles, each of shape (n,).
 
-    A11 = A22. ``q`` = sin(delta) - cos(2 psi) is negative where the equations are hyperbolic with
-    t as time; where it vanishes a characteristic is tangent to the radial direction.
+    ``sigma`` and ``psi`` are the radial solution's; A11 = A22. ``q`` = sin(delta) - cos(2 psi) is
+    negative where the equations are hyperbolic with t as time; where it vanishes a characteristic
+    is tangent to the arc r = const.
     """
 
+    sigma: Array
+    psi: Array
     q: Array
     a11: Array
     a12: Array
@@ -56,22 +62,37 @@ def coefficients(
     ------
     InvalidParameterError
         If the material is not Mohr-Coulomb (its velocity does not decouple), psi_scale is not
-        positive, or an angle lies outside the hopper.
+        positive, or an angle lies on the axis or outside the hopper.
     """
-    hopper = solution.hopper
-    if hopper.material is not MOHR_COULOMB:
+    _require_linear(solution, psi_scale)
+    theta = np.asarray(theta, dtype=float)
+    if np.any(theta == 0):
+        raise InvalidParameterError("theta = 0 is the axis, where C is singular: use other angles")
+    return _coefficients(solution, theta, solution.fields(theta), psi_scale)
+
+
+def coefficients_on_half_grid(
+    solution: RadialSolution, m: int, psi_scale: float = 1.0
+) -> Coefficients:
+    """Return the coefficients at the ``m`` positive Chebyshev points, as :func:`coefficients`."""
+    _require_linear(solution, psi_scale)
+    theta = half_grid(m, solution.hopper.half_angle).theta
+    return _coefficients(solution, theta, solution.fields_on_half_grid(m), psi_scale)
+
+
+def _require_linear(solution: RadialSolution, psi_scale: float) -> None:
+    if solution.hopper.material is not MOHR_COULOMB:
         raise InvalidParameterError(
             "linear stability is formulated for Mohr-Coulomb materials only: use mohr-coulomb"
         )
     if not (np.isfinite(psi_scale) and psi_scale > 0):
         raise InvalidParameterError(f"psi_scale = {psi_scale!r} must be a positive number")
-    theta = np.asarray(theta, dtype=float)
-    return _coefficients(hopper.s, hopper.curvature, theta, solution.fields(theta), psi_scale)
 
 
 def _coefficients(
-    s: float, k: int, theta: Array, fields: tuple[Array, Array, Array, Array], p: float
+    solution: RadialSolution, theta: Array, fields: tuple[Array, Array, Array, Array], p: float
 ) -> Coefficients:
+    s, k = solution.hopper.s, solution.hopper.curvature
     sigma, psi, dsigma, dpsi = fields
     c2, s2 = np.cos(2 * psi), np.sin(2 * psi)
     cot = 1 / np.tan(theta)
@@ -82,9 +103,12 @@ def _coefficients(
     b22 = 3 + 2 * dpsi - dsigma * s2 / (sigma * q)
     c11 = s * (s2 * cot + c2 + 1) / q
     c12 = 2 * s * sigma * cot / q
-    c21 = -(1 + s) * ((1 - c2) * cot + s2) / (2 * sigma * q)
+    # 1 - cos(2 psi) = 2 sin(psi)**2 keeps its digits near the axis.
+    c21 = -(1 + s) * (2 * np.sin(psi) ** 2 * cot + s2) / (2 * sigma * q)
     c22 = (q - s2 * cot) / q
     return Coefficients(
+        sigma=sigma,
+        psi=psi,
         q=q,
         a11=-s2 / q,
         a12=p * 2 * s * sigma / q,
@@ -94,3 +118,21 @@ def _coefficients(
         f21=(b21 + k * c21) / p,
         f22=b22 + k * c22,
     )
+
+
+def require_no_tangency(solution: RadialSolution) -> None:
+    """Check that psi stays below pi/4 - delta/2.
+
+    Raises
+    ------
+    TangencyError
+        If it does not.
+    """
+    limit = pi / 4 - solution.hopper.delta / 2
+    # The nodes see the maximum to second order in their distance; look closer only near the limit.
+    if solution.psi.max() < 0.98 * limit:
+        return
+    theta, largest = solution.psi_maximum()
+    if largest >= limit:
+        first = brentq(lambda angle: float(solution.psi_at(angle)[0]) - limit, 0.0, theta)
+        raise TangencyError.at(solution.hopper.delta, first)

@@ -252,8 +252,8 @@ def smallest_singular_values(
         For a real matrix z and conj(z) have the same value: give one of them.
     tolerance : float
         Bound on the residual of the Lanczos estimate of 1 / sigma_min^2, relative to it, above
-        rounding. Half of it bounds the relative error of a singular value; as the error is of
-        second order, it is usually far smaller.
+        rounding. A singular value lies within half of it, relative; as the error is of second
+        order, usually far closer. At 1e-4 and above it may not be the smallest one of a cluster.
     progress : callable(done, total), optional
         Called after each batch with numbers of points.
 

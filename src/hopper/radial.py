@@ -10,9 +10,14 @@ from scipy.optimize import brentq
 
 from hopper import family
 from hopper.chebyshev import Array
-from hopper.errors import InvalidParameterError, NonPositiveStressError, NoRadialSolutionError
+from hopper.errors import (
+    ConvergenceError,
+    InvalidParameterError,
+    NonPositiveStressError,
+    NoRadialSolutionError,
+)
 from hopper.problem import Hopper, require_angle
-from hopper.radial_collocation import Closure, Member, slopes, solve
+from hopper.radial_collocation import Closure, Member, half_grid, slopes, solve
 
 Branch = Literal["physical", "second"]
 
@@ -92,9 +97,20 @@ class RadialSolution:
             If an angle lies outside the hopper.
         """
         theta = self._inside(theta)
-        sigma = np.exp(self.member.grid.interpolation(theta, "even") @ self.member.log_ratio)
-        sigma /= self.member.tau
+        log_ratio = self.member.grid.interpolation(theta, "even") @ self.member.log_ratio
         psi = self.member.grid.interpolation(theta, "odd") @ self.psi
+        return self._with_slopes(theta, log_ratio, psi)
+
+    def fields_on_half_grid(self, m: int) -> tuple[Array, Array, Array, Array]:
+        """Return :meth:`fields` at the ``m`` positive Chebyshev points, each of shape (m,)."""
+        grid = half_grid(m, self.hopper.half_angle)
+        u = self.member.on(grid)
+        return self._with_slopes(grid.theta, u[:m], u[m:-1])
+
+    def _with_slopes(
+        self, theta: Array, log_ratio: Array, psi: Array
+    ) -> tuple[Array, Array, Array, Array]:
+        sigma = np.exp(log_ratio) / self.member.tau
         dlog, dpsi = slopes(self.hopper, theta, sigma, psi)
         return sigma, psi, sigma * dlog, dpsi
 
@@ -161,7 +177,7 @@ def solve_radial(
     if branch == "second":
         member = _on_second_branch(hopper, friction_angle, psi_wall)
     else:
-        member = _on_physical_branch(hopper, friction_angle, psi_wall, start)
+        member = _on_physical_branch(hopper, friction_angle, start)
     return RadialSolution(hopper, friction_angle, branch, member)
 
 
@@ -186,22 +202,56 @@ def solve_radial_family(hopper: Hopper, sigma_axis: float) -> RadialSolution:
     """
     if not (np.isfinite(sigma_axis) and sigma_axis > 0):
         raise InvalidParameterError(f"sigma_axis = {sigma_axis!r} must be a positive number")
-    found = family.member_with_tau(hopper, 1 / sigma_axis)
-    phi = hopper.material.friction_angle(hopper.delta, found.psi_wall)
-    branch: Branch = "physical" if found.psi_wall_by_tau > 0 else "second"
-    return RadialSolution(hopper, phi, branch, found)
+    return solution_of(family.member_with_tau(hopper, 1 / sigma_axis))
+
+
+def solution_of(member: Member) -> RadialSolution:
+    """Return the radial solution of a member of the family, with the friction of its wall."""
+    phi = member.hopper.material.friction_angle(member.hopper.delta, member.psi_wall)
+    branch: Branch = "physical" if member.psi_wall_by_tau > 0 else "second"
+    return RadialSolution(member.hopper, phi, branch, member)
+
+
+def physical_member(
+    hopper: Hopper, friction_angle: float, start: Member | None = None
+) -> Member | None:
+    """Return the member of the physical branch, None beyond its end; tau may be negative.
+
+    As :func:`solve_radial`, for sweeps that need no reason where there is no solution. ``start``
+    is a member of the same hopper at a smaller friction.
+
+    Raises
+    ------
+    WallFrictionError
+        If the material cannot transmit the wall's friction.
+    ConvergenceError
+        If the fields cannot be resolved.
+    """
+    psi_wall = hopper.material.wall_angle(hopper.delta, friction_angle)
+    closure = Closure("psi_wall", psi_wall)
+    for guess in (start, None) if start else (None,):
+        member = solve(hopper, closure, guess)
+        if member is not None and member.psi_wall_by_tau > 0:
+            return member
+    try:
+        found = family.members_with_wall_angle(hopper, psi_wall, start)
+    except NoRadialSolutionError:
+        return None
+    return found[0] if found and found[0].psi_wall_by_tau >= 0 else None
 
 
 def _on_physical_branch(
-    hopper: Hopper, friction_angle: float, psi_wall: float, start: RadialSolution | None
+    hopper: Hopper, friction_angle: float, start: RadialSolution | None
 ) -> Member:
-    closure = Closure("psi_wall", psi_wall)
-    member = solve(hopper, closure, start.member) if start else None
-    if member is None or member.psi_wall_by_tau <= 0:
-        member = solve(hopper, closure)
-    if member is None or member.psi_wall_by_tau <= 0:
+    member = physical_member(
+        hopper, friction_angle, start.member if start and start.hopper == hopper else None
+    )
+    if member is None:
         _require_below_limit(hopper, friction_angle)
-        member = family.members_with_wall_angle(hopper, psi_wall)[0]
+        raise ConvergenceError(
+            f"radial solution not resolved at phi = {degrees(friction_angle):.6g} deg: psi is too "
+            "close to its singular value; lower the wall friction"
+        )
     if member.tau <= 0:
         raise NonPositiveStressError(_non_positive_stress(hopper, friction_angle))
     return member

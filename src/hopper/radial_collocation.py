@@ -39,6 +39,9 @@ class Grid:
     half_angle: float
     clustering: float
     theta: Array
+    cot: Array
+    cos: Array
+    sin: Array
     d_even: Array
     d_odd: Array
     axis_row: Array
@@ -70,6 +73,9 @@ def half_grid(size: int, half_angle: float, clustering: float = 0.0) -> Grid:
         half_angle=half_angle,
         clustering=clustering,
         theta=theta,
+        cot=1 / np.tan(theta),
+        cos=np.cos(theta),
+        sin=np.sin(theta),
         d_even=chebyshev.half_differentiation_matrix(size, "even") / stretch[:, None],
         d_odd=chebyshev.half_differentiation_matrix(size, "odd") / stretch[:, None],
         axis_row=chebyshev.half_interpolation_matrix(size, 0.0, "even")[0],
@@ -127,9 +133,13 @@ class Member:
         """Return ``u`` interpolated to another grid, stretched where the half angles differ."""
         if grid is self.grid:
             return self.u
-        theta = grid.theta * (self.grid.half_angle / grid.half_angle)
-        even = self.grid.interpolation(theta, "even")
-        odd = self.grid.interpolation(theta, "odd")
+        if grid.clustering == self.grid.clustering:
+            even = chebyshev.half_transfer_matrix(self.grid.size, grid.size, "even")
+            odd = chebyshev.half_transfer_matrix(self.grid.size, grid.size, "odd")
+        else:
+            theta = grid.theta * (self.grid.half_angle / grid.half_angle)
+            even = self.grid.interpolation(theta, "even")
+            odd = self.grid.interpolation(theta, "odd")
         return np.concatenate([even @ self.log_ratio, odd @ self.psi, self.u[-1:]])
 
 
@@ -175,8 +185,7 @@ def _residual_and_jacobian(hopper: Hopper, grid: Grid, u: Array) -> tuple[Array,
     b, m = law.angular, grid.size
     log_ratio, psi, tau = u[:m], u[m:-1], u[-1]
     c2, s2 = np.cos(2 * psi), np.sin(2 * psi)
-    cot = 1 / np.tan(grid.theta)
-    downward, outward = np.cos(grid.theta), np.sin(grid.theta)
+    cot, downward, outward = grid.cot, grid.cos, grid.sin
     lightness = np.exp(-log_ratio)
     dlog, dpsi = grid.d_even @ log_ratio, grid.d_odd @ psi
     stiffness = 1 + b * s * c2

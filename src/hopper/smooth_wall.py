@@ -103,7 +103,14 @@ def cone_wavenumbers(half_angle: float, count: int, variant: ConeVariant = "lege
 
 
 def cone_eigenvalues(delta: float, mu: ArrayLike) -> Complex:
-    """Return both roots of (4.9) for each mu_n, shape (2 len(mu),); ``delta`` in radians."""
+    """Return both roots of (4.9) for each mu_n, shape (2 len(mu),); ``delta`` in radians.
+
+    Raises
+    ------
+    InvalidParameterError
+        If delta is out of range.
+    """
+    require_angle("delta", delta)
     s = np.sin(delta)
     linear = 5 - 9 * s
     constant = 4 - 20 * s + (1 + s) * np.asarray(mu, dtype=float)
@@ -113,7 +120,10 @@ def cone_eigenvalues(delta: float, mu: ArrayLike) -> Complex:
 
 
 def oscillation_threshold(half_angle: ArrayLike) -> Array:
-    """Return f(theta_w): the least sin(delta) at which an eigenvalue of (4.9) is real."""
+    """Return f(theta_w): the least sin(delta) at which an eigenvalue of (4.9) is real.
+
+    ``half_angle`` in radians, below :func:`largest_distinct_half_angle`.
+    """
     angle2 = np.asarray(half_angle, dtype=float) ** 2
     x2 = jn_zeros(1, 1)[0] ** 2
     return (-3 * angle2 + 4 * np.sqrt(x2**2 - 2 * x2 * angle2)) / (angle2 + 4 * x2)

@@ -88,7 +88,7 @@ def mesh_spectrum(solution: RadialSolution, n: int) -> MeshSpectrum:
     InvalidParameterError
         If n is odd or less than 16.
     TangencyError
-        If a characteristic is tangent to the radial direction.
+        If psi reaches pi/4 - delta/2.
     """
     require_even(n)
     if n < _LEAST_NODES:
@@ -124,7 +124,7 @@ def relative_changes(fine: Complex, coarse: Complex, matching: Matching) -> Arra
     Parameters
     ----------
     fine, coarse : complex arrays, shapes (n,), (k,), k <= n
-        By increasing modulus.
+        By increasing modulus, conjugates in the same order in both (a stable sort).
     matching : "nearest", "ordinal" or "one-to-one"
         The nearest coarse eigenvalue, which several may share; the one of equal rank; or the
         one-to-one assignment of least total distance.
@@ -190,6 +190,65 @@ def _reasons(change: Array, tail: Array, tolerance: float) -> NDArray[np.int8]:
         beyond = np.arange(reason.size) > unresolved[0]
         reason[beyond & (reason == 0)] = REASONS.index("beyond_first_unresolved")
     return reason.astype(np.int8)
+
+
+@dataclass(frozen=True)
+class PaperAbscissa:
+    """Largest real part that two meshes agree on.
+
+    Attributes
+    ----------
+    as_worded : float
+        Both parities, nearest neighbour within the tolerance, among the 2 n / pi eigenvalues of
+        least modulus, which is what pi points per wavelength resolve: the paper's "about the first
+        250" at n = 400.
+    physical : float
+        The flow's parity, one-to-one partner within the tolerance for this and every eigenvalue of
+        smaller modulus.
+    """
+
+    as_worded: float
+    physical: float
+
+
+def paper_abscissa(
+    solution: RadialSolution, n: int, coarse_n: int, tolerance: float
+) -> PaperAbscissa:
+    """Return the spectral abscissa by the paper's algorithm, from meshes of n and coarse_n nodes.
+
+    Raises
+    ------
+    InvalidParameterError
+        If a mesh is odd or too small.
+    TangencyError
+        If psi reaches pi/4 - delta/2.
+    ConvergenceError
+        If nothing is kept.
+    """
+    fine = {half: _eigenvalues(solution, n, half) for half in HALVES}
+    coarse = {half: _eigenvalues(solution, coarse_n, half) for half in HALVES}
+    both = _by_modulus(np.concatenate(list(fine.values())))[: int(2 * n / np.pi)]
+    nearest = relative_changes(both, np.concatenate(list(coarse.values())), "nearest")
+    change = relative_changes(fine["physical"], coarse["physical"], "one-to-one")
+    run = np.logical_and.accumulate(change < tolerance)
+    if not (run.any() and (nearest < tolerance).any()):
+        raise ConvergenceError(
+            f"no eigenvalue converged to {tolerance:g} between {coarse_n} and {n} nodes: use finer "
+            "meshes or lower the wall friction"
+        )
+    return PaperAbscissa(
+        as_worded=float(both[nearest < tolerance].real.max()),
+        physical=float(fine["physical"][run].real.max()),
+    )
+
+
+def _eigenvalues(solution: RadialSolution, n: int, half: Half) -> Complex:
+    require_even(n)
+    return _by_modulus(np.linalg.eigvals(half_matrix(solution, n // 2, half)).astype(complex))
+
+
+def _by_modulus(values: Complex) -> Complex:
+    return values[np.argsort(np.abs(values), kind="stable")]
 
 
 def unbroken_run(kept: Mask) -> tuple[int, int]:

@@ -9,7 +9,6 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eigvals
 
 from hopper.asymptotic_line import AsymptoticLine, asymptotic_line
 from hopper.collocation import half_matrix
@@ -18,9 +17,11 @@ from hopper.radial import RadialSolution
 
 Complex = NDArray[np.complex128]
 
-_SIZES = (24, 32, 48, 72, 108)
+_SIZES = (16, 24, 36, 54, 80, 120)
 _TOLERANCE = 1e-10
 _LEAST_MODES = 3
+# The estimate of a mode's error is an order of magnitude.
+_SAFETY = 10
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ class Stability:
         Supremum of Re(lambda); not attained by a mode where the line governs.
     governed_by : "mode" or "line"
     error_estimate : float
-        Of the abscissa.
+        Absolute, of the abscissa.
     """
 
     eigenvalues: Complex
@@ -65,17 +66,19 @@ def stability(solution: RadialSolution) -> Stability:
     """
     line = asymptotic_line(solution)
     modes, mode_error = low_modes(solution)
-    highest = float(modes.real.max())
-    error = max(mode_error, line.error_estimate)
-    if highest > line.abscissa:
-        return Stability(modes, line, highest, "mode", error)
-    return Stability(modes, line, line.abscissa, "line", error)
+    highest = modes[np.argmax(modes.real)]
+    if highest.real > line.abscissa:
+        error = _SAFETY * mode_error * float(np.abs(highest))
+        return Stability(modes, line, float(highest.real), "mode", error)
+    return Stability(modes, line, line.abscissa, "line", line.error_estimate)
 
 
 def low_modes(solution: RadialSolution) -> tuple[Complex, float]:
-    """Return the converged low modes (Im >= 0, by modulus) and their largest relative change.
+    """Return the converged low modes (Im >= 0, by modulus) and their largest relative error.
 
-    A mode counts while it and all of smaller modulus change by less than 1e-10 between two meshes.
+    Errors decay geometrically with the mesh, so that of the finer of two meshes is about their
+    difference to the power of their ratio. A mode counts while it and all of smaller modulus have
+    a relative error below 1e-10 by that estimate.
 
     Raises
     ------
@@ -84,18 +87,20 @@ def low_modes(solution: RadialSolution) -> tuple[Complex, float]:
     ConvergenceError
         If fewer than three modes converge on the finest mesh.
     """
-    coarse = upper_eigenvalues(solution, _SIZES[0])
+    previous = _SIZES[0]
+    coarse = upper_eigenvalues(solution, previous)
     for size in _SIZES[1:]:
         fine = upper_eigenvalues(solution, size)
         count = min(coarse.size, fine.size)
         change = np.abs(coarse[:count] - fine[:count]) / np.abs(fine[:count])
-        unresolved = np.flatnonzero(change > _TOLERANCE)
+        error = change ** (size / previous)
+        unresolved = np.flatnonzero(error > _TOLERANCE)
         converged = int(unresolved[0]) if unresolved.size else count
         if converged >= _LEAST_MODES:
             # Rounding of the collocation matrix: a few units of its condition, about size ** 2.
             rounding = np.finfo(float).eps * size**2
-            return fine[:converged], max(float(change[:converged].max()), rounding)
-        coarse = fine
+            return fine[:converged], max(float(error[:converged].max()), rounding)
+        coarse, previous = fine, size
     raise ConvergenceError(
         f"only {converged} low modes converged at {size} half-grid points; psi is too close to "
         "pi/4 - delta/2, lower the wall friction"
@@ -105,6 +110,6 @@ def low_modes(solution: RadialSolution) -> tuple[Complex, float]:
 def upper_eigenvalues(solution: RadialSolution, size: int) -> Complex:
     """Return the eigenvalues with Im >= 0 of the physical half, by increasing modulus."""
     matrix = half_matrix(solution, size)
-    values = np.asarray(eigvals(matrix, check_finite=False, overwrite_a=True), dtype=np.complex128)
+    values = np.linalg.eigvals(matrix).astype(np.complex128)
     upper = values[values.imag >= 0]
     return upper[np.argsort(np.abs(upper))]

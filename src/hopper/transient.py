@@ -86,12 +86,15 @@ def modal_basis(
     Parameters
     ----------
     solution : RadialSolution
+        Radial solution of a Mohr-Coulomb material.
     n : int
         Nodes on the full interval, even.
     half : "physical" or "mirrored"
+        Parity of the modes.
     kept : complex array, shape (k,)
         Eigenvalues to keep, closed under conjugation.
     norm : "discrete" or "L2"
+        As in :func:`half_weights`.
     psi_scale : float
         Unknowns are (sigma1, psi1 / psi_scale): 1 as defined, 2 as printed.
 
@@ -100,7 +103,7 @@ def modal_basis(
     InvalidParameterError
         If nothing is kept, an eigenvalue is not one of this mesh, or the norm is unknown.
     TangencyError
-        If a characteristic is tangent to the radial direction.
+        If psi reaches pi/4 - delta/2.
     """
     wanted = np.asarray(kept, dtype=complex)
     if wanted.size == 0:

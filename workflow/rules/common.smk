@@ -26,6 +26,8 @@ wildcard_constraints:
     geometry="wedge|cone",
     nodes=r"\d+",
     mode="paper|physical",
+    angle=r"[0-9.]+",
+    chunk=r"\d+",
 
 
 def code_of(script):

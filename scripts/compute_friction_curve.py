@@ -1,0 +1,108 @@
+"""Spectral abscissa over wall friction: low modes and line, and the paper's algorithm."""
+
+import logging
+from collections.abc import Sequence
+from math import tan
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from hopper.domain import tangency_friction
+from hopper.errors import ConvergenceError
+from hopper.family import friction_limit
+from hopper.problem import Hopper
+from hopper.radial import solve_radial
+from hopper.spectrum import paper_abscissa
+from hopper.stability_map import sweep_friction
+from support import artifacts, fields, hoppers, jobs, maps
+
+
+def compute_friction_curve(
+    artifact: str,
+    provenance: str,
+    *,
+    geometry: str,
+    half_angle_deg: float,
+    deltas_deg: Sequence[float],
+    mu: dict[str, Any],
+    check: dict[str, Any],
+) -> None:
+    """Sweep mu for every delta, and check a few points of each curve by the paper's algorithm."""
+    friction = np.linspace(0, mu["stop"], mu["points"])
+    sweeps, ends, checks = [], [], []
+    for delta in deltas_deg:
+        hopper = hoppers.mohr_coulomb(geometry, delta, half_angle_deg)
+        sweeps.append(sweep_friction(hopper, np.arctan(friction)))
+        tangency = tangency_friction(hopper)
+        limit = friction_limit(hopper).friction_angle
+        ends.append((np.nan if tangency is None else tan(tangency), tan(limit)))
+        last = min(tan(limit if tangency is None else tangency), mu["stop"])
+        checks.append(_check(hopper, np.linspace(0, last, check["points"] + 1)[:-1], check))
+        logging.info("%s, delta = %g deg: tangency at mu = %.6f", geometry, delta, ends[-1][0])
+    over, at = ("delta", "mu"), ("delta", "check")
+    checked = np.array(checks)
+    dataset = xr.Dataset(
+        {
+            "abscissa": fields.number(over, [s.abscissa for s in sweeps], "supremum of Re(lambda)"),
+            "line": fields.number(over, [s.line for s in sweeps], "asymptotic line"),
+            "highest_mode": fields.number(
+                over, [s.highest_mode for s in sweeps], "largest real part of a low mode"
+            ),
+            "abscissa_error": fields.number(
+                over, [s.error_estimate for s in sweeps], "error estimate of the abscissa"
+            ),
+            "region": maps.region(over, [s.region for s in sweeps]),
+            "tangency_mu": fields.number("delta", [e[0] for e in ends], "mu at the tangency"),
+            "limit_mu": fields.number("delta", [e[1] for e in ends], "largest mu with a solution"),
+            "check_mu": fields.number(at, checked[..., 0], "mu of the checked point"),
+            "check_as_worded": fields.number(
+                at, checked[..., 1], "abscissa by the paper's algorithm, both parities"
+            ),
+            "check_physical": fields.number(
+                at, checked[..., 2], "abscissa by the paper's algorithm, the flow's parity"
+            ),
+            "check_abscissa": fields.number(
+                at, checked[..., 3], "abscissa from low modes and line at the checked point"
+            ),
+        },
+        coords={
+            "delta": fields.angle("delta", list(deltas_deg), "angle of internal friction"),
+            "mu": fields.number("mu", friction, "coefficient of wall friction"),
+        },
+    )
+    artifacts.write(
+        dataset,
+        artifact,
+        provenance,
+        title=f"Influence of wall friction on stability, {geometry}",
+        equations="(4.1), (4.2)",
+        parameters={
+            "geometry": geometry,
+            "half_angle_deg": half_angle_deg,
+            "deltas_deg": list(deltas_deg),
+            "mu": mu,
+            "check": check,
+        },
+    )
+
+
+def _check(hopper: Hopper, mu: np.ndarray, check: dict[str, Any]) -> list[list[float]]:
+    """Return (mu, as worded, physical, abscissa) at the points to check, NaN if not converged."""
+    rows = []
+    abscissae = sweep_friction(hopper, np.arctan(mu)).abscissa
+    for value, abscissa in zip(mu, abscissae, strict=True):
+        solution = solve_radial(hopper, float(np.arctan(value)))
+        try:
+            found = paper_abscissa(
+                solution, check["nodes"], check["coarse_nodes"], check["tolerance"]
+            )
+            rows.append([value, found.as_worded, found.physical, abscissa])
+        except ConvergenceError as error:
+            logging.info("mu = %.4f: %s", value, error)
+            rows.append([value, np.nan, np.nan, abscissa])
+    return rows
+
+
+if __name__ == "__main__":
+    jobs.run(compute_friction_curve, snakemake)  # type: ignore[name-defined]  # noqa: F821

@@ -1,0 +1,53 @@
+"""Figures 4.4 and 4.4 for another half angle: influence of wall friction on stability."""
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+
+from support import artifacts, jobs, plotting
+
+
+def plot_fig_4_4(wedge: str, cone: str, png: str, pdf: str, *, half_angle_deg: float) -> None:
+    """Plot max Re(lambda) over mu, wedge left, cone right, a curve for each delta."""
+    figure, axes = plotting.subplots(1, 2, height=3.3)
+    for axis, path, geometry in zip(axes, (wedge, cone), ("wedge", "cone"), strict=True):
+        data = artifacts.read(path)
+        for delta, color in zip(data.delta.values, _COLORS, strict=False):
+            _draw_curve(axis, data.sel(delta=delta), color, rf"$\delta$ = {delta:g}°")
+        axis.axhline(0, color="0.5", linewidth=0.6)
+        axis.set_xlim(0, 1.02 * float(data.mu.max()))
+        axis.set_xlabel(r"coefficient of wall friction $\mu$")
+        axis.set_title(rf"{geometry}, $\vartheta_w$ = {half_angle_deg:g}°")
+    axes[0].set_ylabel(r"max Re $\lambda$")
+    for style in _LEGEND:
+        axes[0].plot([], [], **style)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    plotting.save(figure, png, pdf)
+
+
+def _draw_curve(axis: Axes, data: xr.Dataset, color: str, label: str) -> None:
+    """Solid where a mode governs, dashed where the line does; a bar where the curve ends."""
+    mu, abscissa = data.mu.values, data.abscissa.values
+    by_line = data.line.values >= data.highest_mode.values
+    axis.plot(mu, np.where(by_line, np.nan, abscissa), "-", color=color, label=label)
+    # A segment between the two kinds belongs to the line: the curves must not have gaps.
+    reach = by_line | np.roll(by_line, 1) | np.roll(by_line, -1)
+    axis.plot(mu, np.where(reach, abscissa, np.nan), "--", color=color)
+    known = np.flatnonzero(np.isfinite(abscissa))
+    if known.size and known[-1] < mu.size - 1:
+        axis.plot(mu[known[-1]], abscissa[known[-1]], "|", color=color, markersize=9, mew=1.6)
+    axis.plot(data.check_mu, data.check_as_worded, "o", color=color, mfc="none", mew=0.7)
+    axis.plot(data.check_mu, data.check_physical, "x", color=color, mew=0.9)
+
+
+_COLORS = (plotting.BLUE, plotting.ORANGE, plotting.GREEN, plotting.PURPLE, plotting.AMBER)
+_LEGEND = (
+    {"color": "0.3", "linestyle": "-", "label": "governed by a mode"},
+    {"color": "0.3", "linestyle": "--", "label": r"governed by the line $\Lambda$"},
+    {"color": "0.3", "linestyle": "", "marker": "|", "markersize": 9, "label": "tangency"},
+    {"color": "0.3", "linestyle": "", "marker": "o", "mfc": "none", "label": "paper's algorithm"},
+    {"color": "0.3", "linestyle": "", "marker": "x", "label": "same, physical parity, resolved"},
+)
+
+if __name__ == "__main__":
+    jobs.run(plot_fig_4_4, snakemake)  # type: ignore[name-defined]  # noqa: F821

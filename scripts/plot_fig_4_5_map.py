@@ -1,0 +1,63 @@
+"""Figure 4.5 as a map: max Re(lambda) over internal and wall friction."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap, SymLogNorm
+
+from support import artifacts, domains, jobs, plotting
+
+
+def plot_fig_4_5_map(
+    maps: Sequence[str],
+    borders: Sequence[str],
+    png: str,
+    pdf: str,
+    *,
+    panels: Sequence[str],
+    color_range: Sequence[float],
+) -> None:
+    """Plot one panel for each geometry and half angle, with the borders over the map."""
+    linear, largest = color_range
+    norm = SymLogNorm(linear, vmin=-largest, vmax=largest)
+    figure, axes = plotting.subplots(2, 2, height=5.9, sharex=True, sharey=True)
+    for axis, path, border, title in zip(axes.flat, maps, borders, panels, strict=True):
+        data = artifacts.read(path)
+        _mark_undecided(axis, data)
+        mesh = axis.pcolormesh(data.delta, data.phi, data.abscissa.T, cmap="RdBu_r", norm=norm,
+                               shading="nearest", rasterized=True)  # fmt: skip
+        domains.draw_borders(axis, artifacts.read(border))
+        axis.set_xlim(float(data.delta.min()), float(data.delta.max()))
+        axis.set_ylim(0, float(data.phi.max()))
+        axis.set_title(title)
+    for axis in axes[1]:
+        axis.set_xlabel(r"angle of internal friction $\delta$ (degrees)")
+    for axis in axes[:, 0]:
+        axis.set_ylabel(r"angle of wall friction $\phi$ (degrees)")
+    figure.colorbar(mesh, ax=axes, label=r"max Re $\lambda$ (red: unstable, blue: stable)",
+                    shrink=0.7, extend="both")  # fmt: skip
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    plotting.save(figure, png, pdf)
+
+
+def _mark_undecided(axis: Axes, data: xr.Dataset) -> None:
+    """Grey, by reason, wherever there is no verdict."""
+    meanings = data.region.attrs["flag_meanings"].split()
+    for name, (color, label) in _GREYS.items():
+        mask = np.where(data.region == meanings.index(name), 1.0, np.nan).T
+        axis.pcolormesh(data.delta, data.phi, mask, cmap=ListedColormap([color]),
+                        shading="nearest", rasterized=True)  # fmt: skip
+        axis.fill([], [], color=color, label=label)
+
+
+_GREYS = {
+    "tangent_characteristic": ("0.8", "beyond the tangency"),
+    "no_radial_solution": ("0.93", "no radial solution"),
+    "non_positive_stress": ("0.7", "stress not positive"),
+    "not_converged": ("0.3", "not resolved"),
+}
+
+if __name__ == "__main__":
+    jobs.run(plot_fig_4_5_map, snakemake)  # type: ignore[name-defined]  # noqa: F821

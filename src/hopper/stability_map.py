@@ -1,0 +1,96 @@
+"""Verdicts of stability along a sweep of wall friction, each with the region it lies in."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from hopper.chebyshev import Array
+from hopper.errors import (
+    ConvergenceError,
+    InvalidParameterError,
+    TangencyError,
+)
+from hopper.family import friction_limit_from
+from hopper.problem import Hopper
+from hopper.radial import physical_member, solution_of
+from hopper.radial_collocation import Member
+from hopper.stability import Stability, stability
+
+REGIONS = (
+    "stable",
+    "unstable",
+    "tangent_characteristic",
+    "no_radial_solution",
+    "no_wall_angle",
+    "non_positive_stress",
+    "not_converged",
+)
+_TANGENT, _NO_SOLUTION, _NO_WALL, _NON_POSITIVE, _NOT_CONVERGED = range(2, 7)
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """Results at n wall friction angles; NaN where the region has no verdict.
+
+    Attributes
+    ----------
+    region : integer array, shape (n,)
+        Index into ``REGIONS``.
+    abscissa, line, highest_mode, error_estimate : arrays, shape (n,)
+        Supremum of Re(lambda), abscissa of the asymptotic line, largest real part of a low mode,
+        error of the abscissa.
+    """
+
+    region: NDArray[np.int8]
+    abscissa: Array
+    line: Array
+    highest_mode: Array
+    error_estimate: Array
+
+
+def sweep_friction(hopper: Hopper, friction_angles: ArrayLike) -> Sweep:
+    """Evaluate a hopper at increasing wall friction angles (radians).
+
+    Neighbours start each other's iteration. Beyond the tangency only the existence of a radial
+    solution is decided, by the limit of its branch.
+
+    Raises
+    ------
+    InvalidParameterError
+        If the angles do not increase or lie outside [0, pi/2).
+    """
+    angles = np.asarray(friction_angles, dtype=float)
+    if np.any(np.diff(angles) <= 0):
+        raise InvalidParameterError("friction_angles must increase: sort and remove repeated ones")
+    region = np.full(angles.size, _NO_SOLUTION, dtype=np.int8)
+    region[angles > hopper.material.largest_friction_angle(hopper.delta)] = _NO_WALL
+    values = np.full((4, angles.size), np.nan)
+    last: Member | None = None
+    for i in np.flatnonzero(region == _NO_SOLUTION):
+        try:
+            member = physical_member(hopper, float(angles[i]), last)
+            if member is None:
+                break
+            last = member
+            if member.tau <= 0:
+                region[i] = _NON_POSITIVE
+                continue
+            result = stability(solution_of(member))
+        except ConvergenceError:
+            region[i] = _NOT_CONVERGED
+        except TangencyError:
+            assert member is not None
+            largest = friction_limit_from(member).friction_angle
+            tangent = (np.arange(angles.size) >= i) & (region == _NO_SOLUTION)
+            region[tangent & (angles <= largest)] = _TANGENT
+            break
+        else:
+            region[i] = 0 if result.stable else 1
+            values[:, i] = _numbers(result)
+    return Sweep(region, *values)
+
+
+def _numbers(result: Stability) -> tuple[float, float, float, float]:
+    highest = float(result.eigenvalues.real.max())
+    return result.abscissa, result.line.abscissa, highest, result.error_estimate
