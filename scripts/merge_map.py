@@ -29,7 +29,9 @@ def merge_map(
         artifacts.read(path, {**parameters, "chunk": index, "chunks": len(chunks)})
         for index, path in enumerate(chunks)
     ]
-    merged = xr.concat(parts, "delta", combine_attrs="drop").sortby("row").drop_vars("row")
+    merged = (
+        xr.concat(parts, "delta", combine_attrs="drop_conflicts").sortby("row").drop_vars("row")
+    )
     artifacts.write(
         merged,
         artifact,

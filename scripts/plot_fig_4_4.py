@@ -33,9 +33,9 @@ def _draw_curve(axis: Axes, data: xr.Dataset, color: str, label: str) -> None:
     # A segment between the two kinds belongs to the line: the curves must not have gaps.
     reach = by_line | np.roll(by_line, 1) | np.roll(by_line, -1)
     axis.plot(mu, np.where(reach, abscissa, np.nan), "--", color=color)
-    known = np.flatnonzero(np.isfinite(abscissa))
-    if known.size and known[-1] < mu.size - 1:
-        axis.plot(mu[known[-1]], abscissa[known[-1]], "|", color=color, markersize=9, mew=1.6)
+    if float(data.tangency_mu) < mu[-1]:
+        last = abscissa[np.isfinite(abscissa)][-1]
+        axis.plot(data.tangency_mu, last, "|", color=color, markersize=9, mew=1.6)
     axis.plot(data.check_mu, data.check_as_worded, "o", color=color, mfc="none", mew=0.7)
     axis.plot(data.check_mu, data.check_physical, "x", color=color, mew=0.9)
 

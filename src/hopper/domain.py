@@ -69,17 +69,23 @@ def _largest_psi(member: Member) -> float:
 
 def _friction_between(below: Member, above: Member, psi: float) -> float | None:
     """Locate the level between two members; None beyond the fold."""
+    law, delta = below.hopper.material, below.hopper.delta
+    if below.psi_wall < psi <= above.psi_wall:
+        at_wall = neighbour(below, Closure("psi_wall", psi))
+        if _largest_psi(at_wall) <= psi + _TOLERANCE:
+            return law.friction_angle(delta, psi)
     unknown = above.closure.unknown
     low, high = (float(getattr(member, unknown)) for member in (below, above))
 
     def excess(value: float) -> float:
         return _largest_psi(neighbour(below, Closure(unknown, value))) - psi
 
-    value = brentq(excess, low, high, xtol=1e-13, rtol=1e-13)
-    reached = neighbour(below, Closure(unknown, value))
+    # psi at the wall is at most the largest psi: no need to look beyond the level.
+    high = min(high, psi) if unknown == "psi_wall" else high
+    reached = neighbour(below, Closure(unknown, brentq(excess, low, high, xtol=1e-13, rtol=1e-13)))
     if unknown == "tau" and reached.psi_wall_by_tau <= 0:
         return None
-    return reached.hopper.material.friction_angle(reached.hopper.delta, reached.psi_wall)
+    return law.friction_angle(delta, reached.psi_wall)
 
 
 def tangency_friction(hopper: Hopper) -> float | None:

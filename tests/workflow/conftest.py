@@ -7,11 +7,39 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
+import yaml
 
 ROOT = Path(__file__).parents[2]
+CHECK = {"points": 1, "nodes": 80, "coarse_nodes": 40, "tolerance": 0.001}
 PARTS = ("Snakefile", "config.yaml", "workflow", "scripts", "src", "envs", "profiles", "resources")
+# Numbers that make every rule run in about a second.
+COARSE: dict[str, Any] = {
+    "fig_jenike.friction_angles_deg.step": 10,
+    "smooth_wall.half_angles_deg.step": 11,
+    "spectra.fig_4_2.nodes": 80,
+    "spectra.fig_4_2.coarse_nodes": 40,
+    "spectra.fig_4_2.exact_modes": 12,
+    "transient.fig_4_3.elapsed.points": 11,
+    "transient.fig_4_3_norms.elapsed.points": 5,
+    "pseudospectrum.real.points": 8,
+    "pseudospectrum.imag.points": 8,
+    "sensitivity.frequencies.points": 11,
+    "sensitivity.elapsed.points": 5,
+    "friction_curves.fig_4_4.mu.points": 8,
+    "friction_curves.fig_4_4.check": CHECK,
+    "friction_curves.fig_4_4_30.mu.points": 8,
+    "friction_curves.fig_4_4_30.check": CHECK,
+    "stability_map.delta_deg.points": 7,
+    "stability_map.phi_deg.points": 7,
+    "borders.neutral_step_deg": 4,
+    "borders.delta_deg.points": 5,
+    "domain_angle.half_angles_deg": [10],
+    "domain_angle.neutral_step_deg": 4,
+    "domain_angle.tangency_points": 5,
+}
 
 
 class Workflow:
@@ -39,9 +67,21 @@ class Workflow:
         found = set()
         for block in blocks:
             if match := re.match(r"(?:local)?rule (\w+):", block):
-                figure = re.search(r"wildcards: (?:figure|case)=(\w+)", block)
-                found.add(f"{match[1]}/{figure[1]}" if figure else match[1])
+                wildcards = re.search(r"wildcards: (.*)", block)
+                values = re.findall(r"=([^,\s]+)", wildcards[1]) if wildcards else []
+                found.add("/".join([match[1], *values]))
         return found - {"all"}
+
+    def set(self, key: str, value: Any) -> None:
+        """Change one value of config.yaml."""
+        path = self.path / "config.yaml"
+        config = yaml.safe_load(path.read_text(encoding="utf-8"))
+        *parents, last = key.split(".")
+        section = config
+        for name in parents:
+            section = section[name]
+        section[last] = value
+        path.write_text(yaml.safe_dump(config, sort_keys=False), encoding="utf-8")
 
     def edit(self, file: str, old: str, new: str) -> None:
         path = self.path / file
@@ -51,7 +91,7 @@ class Workflow:
 
 
 def copy(target: Path, *, results: Path | None = None) -> Workflow:
-    """Copy the workflow's files, and the results of another copy where given."""
+    """Copy the workflow with coarse numbers, and the results of another copy where given."""
     target.mkdir(parents=True)
     for part in PARTS:
         source = ROOT / part
@@ -64,7 +104,10 @@ def copy(target: Path, *, results: Path | None = None) -> Workflow:
     if results is not None:
         for part in ("results", "figures", "logs", ".snakemake"):
             shutil.copytree(results / part, target / part)
-    return Workflow(target)
+    workflow = Workflow(target)
+    for key, value in COARSE.items():
+        workflow.set(key, value)
+    return workflow
 
 
 @pytest.fixture(scope="session")

@@ -64,6 +64,21 @@ def test_artifacts_and_figures_are_identical_in_another_place(built, fresh):
         assert artifacts.checksum(path) == artifacts.checksum(twin), path.name
 
 
+def test_the_number_of_chunks_does_not_change_the_map(built, rebuilt):
+    rebuilt.set("stability_map.chunks", 3)
+    rebuilt.build("results/map/cone_10.nc")
+    path = "results/map/cone_10.nc"
+    assert artifacts.checksum(rebuilt.path / path) == artifacts.checksum(built.path / path)
+
+
+def test_a_map_tells_why_there_is_no_verdict(built):
+    for path in files(built, "results/map", "*_[0-9]*.nc"):
+        data = artifacts.read(path)
+        verdict = np.isin(data.region, [0, 1])
+        assert np.array_equal(np.isfinite(data.abscissa), verdict)
+        assert np.all((data.abscissa.values[verdict] < 0) == (data.region.values[verdict] == 0))
+
+
 def test_error_estimates_are_in_the_artifacts(built):
     for path in files(built, "results/radial", "*.nc"):
         data = artifacts.read(path)

@@ -38,6 +38,14 @@ BAD = [
     ("radial.fig_3_1.points", 10.5, "'radial.fig_3_1.points': 10.5 is not of type 'integer'"),
     ("radial.fig_3_1.typo", 1, r"'radial.fig_3_1': .*'typo' was unexpected"),
     ("radial.fig_9_9", {}, r"'radial': .*'fig_9_9' was unexpected"),
+    ("spectra.fig_4_2.nodes", 401, "'spectra.fig_4_2.nodes': 401 is not a multiple of 2"),
+    ("spectra.fig_4_2.nodes", 8, "'spectra.fig_4_2.nodes': 8 is less than the minimum of 16"),
+    ("spectra.fig_4_2.coarse_nodes", 400, "coarse_nodes': 400 is not below nodes = 400"),
+    ("spectra.fig_4_2.tolerance", 0, "tolerance': 0 is less than or equal to the minimum"),
+    ("pseudospectrum.real.stop", -20, "'pseudospectrum.real.stop': -20 must be above start"),
+    ("pseudospectrum.real.points", 1, "'pseudospectrum.real.points': 1 is less than the minimum"),
+    ("pseudospectrum.modes.paper.psi_scale", 0, "psi_scale': 0 is less than or equal"),
+    ("stability_map.chunks", 0, "'stability_map.chunks': 0 is less than the minimum of 1"),
     ("extra", 1, r"'top level': .*'extra' was unexpected"),
 ]  # fmt: skip
 
@@ -75,7 +83,7 @@ def test_every_key_of_the_schema_is_described():
 
 @pytest.mark.workflow
 def test_the_workflow_stops_before_any_job(fresh):
-    fresh.edit("config.yaml", "mu: [0, 0.2]", "mu: [0, steep]")
+    fresh.set("radial.fig_3_1.mu", [0, "steep"])
     done = fresh.snakemake()
     assert done.returncode != 0
     assert "config key 'radial.fig_3_1.mu[1]': 'steep' is not of type 'number'" in done.stderr
@@ -85,10 +93,20 @@ def test_the_workflow_stops_before_any_job(fresh):
 
 @pytest.mark.workflow
 def test_a_friction_without_solution_ends_in_one_line_and_leaves_nothing(fresh):
-    fresh.edit("config.yaml", "mu: [0.356]", "mu: [0.36]")
+    fresh.set("radial.fig_3_2.mu", [0.36])
     done = fresh.snakemake("figures/fig_3_2.png")
     assert done.returncode != 0
     assert "NoRadialSolutionError: no radial solution at phi" in done.stderr
     assert "the largest friction that has one is phi = 19.7406 deg (mu = 0.358852)" in done.stderr
     assert "Traceback" not in (fresh.path / "logs/solve_radial/fig_3_2.log").read_text()
+    assert not list(fresh.path.glob("results/**/*.nc"))
+
+
+@pytest.mark.workflow
+def test_friction_past_the_tangency_ends_in_one_line(fresh):
+    fresh.set("spectra.fig_4_2.mu", 0.4)
+    done = fresh.snakemake("results/spectrum/fig_4_2/cone_80.nc")
+    assert done.returncode != 0
+    assert "TangencyError: linear stability is not defined: psi reaches" in done.stderr
+    assert "lower the wall friction" in done.stderr
     assert not list(fresh.path.glob("results/**/*.nc"))
