@@ -26,11 +26,13 @@ def kept_by_half(data: xr.Dataset, mode: str) -> dict[Half, np.ndarray]:
     """Return kept eigenvalues by parity.
 
     ``paper``: the first unbroken run kept as the paper words the filter, both parities;
-    ``physical``: those of the flow's parity that the sound filter keeps.
+    ``physical``: those of the flow's parity that the sound filter keeps. A parity of which nothing
+    is kept is left out.
     """
     values, half = fields.as_complex(data, "eigenvalue"), data["half"].to_numpy()
     if mode == "physical":
         return {"physical": values[(data["kept"].to_numpy() == 1) & (half == 0)]}
     index = np.arange(values.size)
     run = (index >= int(data["run_start"])) & (index < int(data["run_stop"]))
-    return {name: values[run & (half == code)] for code, name in enumerate(HALVES)}
+    parts = {name: values[run & (half == code)] for code, name in enumerate(HALVES)}
+    return {name: part for name, part in parts.items() if part.size}

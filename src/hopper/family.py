@@ -19,7 +19,15 @@ from scipy.optimize import brentq
 from hopper.errors import NoRadialSolutionError
 from hopper.mass_flow import limiting_wall_angle
 from hopper.problem import Hopper
-from hopper.radial_collocation import Closure, Member, crude_start, half_grid, newton, refine
+from hopper.radial_collocation import (
+    Closure,
+    Member,
+    crude_start,
+    half_grid,
+    newton,
+    refine,
+    solve,
+)
 
 End = Literal["fold", "wall", "interior", "axis"]
 
@@ -27,6 +35,9 @@ _SIZE = 36
 _FIRST_STEP = 0.05
 _LARGEST_STEP = 0.2
 _SMALLEST_STEP = 1e-3
+_LONGEST_WALK = 300
+# Radians within which a wall angle is that of the fold.
+_SAME_ANGLE = 1e-12
 # Radians below the singular angle where the family counts as ended: at the wall, inside.
 _WALL_MARGIN, _INTERIOR_MARGIN = 2e-3, 2e-2
 # tau theta_w beyond which the axis counts as free of stress.
@@ -104,22 +115,28 @@ def family(hopper: Hopper) -> Iterator[Member]:
 
 
 def family_from(member: Member) -> Iterator[Member]:
-    """Yield members in order of increasing tau, from the given one to the end of the family.
+    """Yield members along the family from the given one, towards larger tau, to its end.
 
     The parameter is psi_w where psi_w changes fast, tau where tau does.
     """
-    hopper, member, step = member.hopper, _regrid(member), _FIRST_STEP
+    member, step = _regrid(member), _FIRST_STEP
+    heading = np.array([0.0, 1.0])
     yield member
-    while not _ended(member) and step > _SMALLEST_STEP:
+    for _ in range(_LONGEST_WALK):
+        if _ended(member) or step < _SMALLEST_STEP:
+            return
+        # Oriented by the last step: near the end the sign of d tau alone is rounding.
         direction = np.array([member.tangent[-2], member.tangent[-1] / (1 + abs(member.tau))])
-        scale = step * np.sign(member.tangent[-1]) / np.hypot(*direction)
-        guess = member.u + scale * member.tangent
+        scale = np.sign(direction @ heading) / np.hypot(*direction)
+        direction *= scale
+        guess = member.u + step * scale * member.tangent
         by_wall = abs(direction[0]) > abs(direction[1]) / 2
         closure = Closure("psi_wall", guess[-2]) if by_wall else Closure("tau", guess[-1])
-        following = newton(hopper, member.grid, closure, guess)
-        if following is None or following.error > step:
+        following = newton(member.hopper, member.grid, closure, guess)
+        if following is None or following.error > step or following.tau <= member.tau:
             step /= 2
             continue
+        heading = direction
         member, step = _regrid(following), min(1.5 * step, _LARGEST_STEP)
         yield member
 
@@ -186,8 +203,24 @@ def friction_limit_from(member: Member) -> FrictionLimit:
         wall = limiting_wall_angle(hopper)
         phi = law.friction_angle(hopper.delta, wall)
         return FrictionLimit(phi, "axis", last.tau, wall, abs(phi - reached))
-    uncertainty = reached - law.friction_angle(hopper.delta, last.psi_wall - _INTERIOR_MARGIN)
-    return FrictionLimit(reached, "interior", last.tau, last.psi_wall, uncertainty)
+    return _interior_end(last)
+
+
+def _interior_end(member: Member) -> FrictionLimit:
+    """Follow psi_w as far as collocation resolves it, towards a singular angle inside."""
+    hopper, step = member.hopper, _LARGEST_STEP
+    while step > _SMALLEST_STEP:
+        closure = Closure("psi_wall", member.psi_wall + step)
+        following = solve(hopper, closure, member) or solve(hopper, closure)
+        if following is None:
+            step /= 2
+        else:
+            member = following
+    law = hopper.material
+    phi, above = (
+        law.friction_angle(hopper.delta, member.psi_wall + shift) for shift in (0.0, 2 * step)
+    )
+    return FrictionLimit(phi, "interior", member.tau, member.psi_wall, above - phi)
 
 
 def neighbour(member: Member, closure: Closure) -> Member:
@@ -236,9 +269,11 @@ def members_with_wall_angle(
     ConvergenceError
         If a member is not resolved.
     """
-    found = []
+    found: list[Member] = []
     members = family_from(start) if start else family(hopper)
     for low, high in pairwise(_with_fold(members)):
+        if abs(high.psi_wall - psi_wall) < _SAME_ANGLE and high.psi_wall_by_tau < _SAME_ANGLE:
+            return [*found, high]
         if (low.psi_wall - psi_wall) * (high.psi_wall - psi_wall) <= 0 != high.psi_wall - psi_wall:
             found += [_at_wall_angle(low, high, psi_wall)]
     return found

@@ -81,7 +81,7 @@ def coefficients_on_half_grid(
 
 
 def _require_linear(solution: RadialSolution, psi_scale: float) -> None:
-    if solution.hopper.material is not MOHR_COULOMB:
+    if solution.hopper.material != MOHR_COULOMB:
         raise InvalidParameterError(
             "linear stability is formulated for Mohr-Coulomb materials only: use mohr-coulomb"
         )

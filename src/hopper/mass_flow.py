@@ -13,14 +13,14 @@ from numpy.typing import ArrayLike
 
 from hopper.chebyshev import Array
 from hopper.errors import InvalidParameterError
-from hopper.problem import Hopper
+from hopper.problem import Hopper, as_angles, require_angle
 from hopper.yield_conditions import MOHR_COULOMB
 
 _LEAST_SIN_DELTA = 1 / 3
 
 
 def _apex_angle(hopper: Hopper) -> float:
-    if hopper.geometry != "cone" or hopper.material is not MOHR_COULOMB:
+    if hopper.geometry != "cone" or hopper.material != MOHR_COULOMB:
         raise InvalidParameterError(
             "the mass-flow limit is known in closed form for Mohr-Coulomb cones only: "
             "use geometry = cone and model = mohr-coulomb"
@@ -39,10 +39,14 @@ def limiting_fields(hopper: Hopper, theta: ArrayLike) -> tuple[Array, Array]:
     Raises
     ------
     InvalidParameterError
-        If the hopper is not a Mohr-Coulomb cone with sin(delta) >= 1/3.
+        If the hopper is not a Mohr-Coulomb cone with sin(delta) >= 1/3, or an angle lies outside.
     """
     gamma = _apex_angle(hopper)
-    theta = np.asarray(theta, dtype=float)
+    theta = as_angles("theta", theta)
+    if not np.all((theta > 0) & (theta <= hopper.half_angle * (1 + 1e-12))):
+        raise InvalidParameterError(
+            f"theta must lie in (0, half_angle = {degrees(hopper.half_angle):.6g} deg]"
+        )
     return np.sin(theta) / (2 * hopper.s * np.sin(2 * gamma)), gamma - theta
 
 
@@ -78,4 +82,5 @@ def mass_flow_half_angle(hopper: Hopper, friction_angle: float) -> float:
     WallFrictionError
         If the material cannot transmit the wall's friction.
     """
+    require_angle("friction_angle", friction_angle, zero_allowed=True)
     return _apex_angle(hopper) - hopper.material.wall_angle(hopper.delta, friction_angle)

@@ -2,8 +2,13 @@
 
 from dataclasses import dataclass
 from math import degrees, isfinite, pi, sin
+from numbers import Real
 from typing import Literal, cast, get_args
 
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hopper.chebyshev import Array
 from hopper.errors import InvalidParameterError
 from hopper.yield_conditions import MOHR_COULOMB, VON_MISES, YieldCondition
 
@@ -42,7 +47,12 @@ class Hopper:
             )
         for name in ("delta", "half_angle"):
             require_angle(name, getattr(self, name))
-        if self.material is VON_MISES and self.geometry == "wedge":
+        material: object = self.material
+        if not isinstance(material, YieldCondition):
+            raise InvalidParameterError(
+                f"material = {material!r} is not a yield condition: use yield_condition(name)"
+            )
+        if self.material == VON_MISES and self.geometry == "wedge":
             raise InvalidParameterError(
                 "model = von-mises is formulated for cones only: use geometry = cone"
             )
@@ -67,10 +77,9 @@ def require_angle(name: str, value: float, *, zero_allowed: bool = False) -> Non
         If it is not; the message states the value in degrees.
     """
     # numpy scalars and ints are welcome, strings and arrays are not.
-    try:
-        angle = float(value)
-    except (TypeError, ValueError):
-        raise InvalidParameterError(f"{name} = {value!r} is not a number: give radians") from None
+    if not is_real(value):
+        raise InvalidParameterError(f"{name} = {value!r} is not a number: give radians")
+    angle = float(value)
     inside = 0 <= angle < pi / 2 if zero_allowed else 0 < angle < pi / 2
     if not (isfinite(angle) and inside):
         interval = "[0, 90)" if zero_allowed else "(0, 90)"
@@ -90,3 +99,22 @@ def as_geometry(name: str) -> Geometry:
     if name not in get_args(Geometry):
         raise InvalidParameterError(f"geometry = {name!r} is unknown: use wedge or cone")
     return cast(Geometry, name)
+
+
+def as_angles(name: str, values: ArrayLike) -> Array:
+    """Return real numbers as an array, shape (n,).
+
+    Raises
+    ------
+    InvalidParameterError
+        If they are not real numbers.
+    """
+    array = np.atleast_1d(np.asarray(values))
+    if array.dtype.kind not in "fiu":
+        raise InvalidParameterError(f"{name} must be real numbers, in radians")
+    return array.astype(float)
+
+
+def is_real(value: object) -> bool:
+    """Whether a value is a real number: not a string, not complex, not an array."""
+    return isinstance(value, Real)

@@ -260,7 +260,7 @@ def smallest_singular_values(
     Returns
     -------
     array, shape of ``z``
-        Nonnegative; tiny at an eigenvalue, 0 where 1 / sigma_min^2 exceeds 1e154.
+        Nonnegative; of rounding size at an eigenvalue, 0 where 1 / sigma_min^2 exceeds 1e154.
 
     Raises
     ------
@@ -320,7 +320,7 @@ def pseudospectrum(
         # The two sides of a symmetric axis are often equal to rounding only.
         rounded = np.round(np.abs(y) / np.abs(y).max(), 14)
         levels, first = np.unique(rounded, return_index=True)
-        heights, source = np.abs(y[first]), np.searchsorted(levels, rounded)
+        heights, source = y[first], np.searchsorted(levels, rounded)
     sigma = smallest_singular_values(form, x + 1j * heights[:, None], progress=progress)
     return Pseudospectrum(x, y, sigma[source])
 

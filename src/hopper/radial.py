@@ -16,8 +16,8 @@ from hopper.errors import (
     NonPositiveStressError,
     NoRadialSolutionError,
 )
-from hopper.problem import Hopper, require_angle
-from hopper.radial_collocation import Closure, Member, half_grid, slopes, solve
+from hopper.problem import Hopper, as_angles, is_real, require_angle
+from hopper.radial_collocation import Closure, Member, half_grid, normal_weight, slopes, solve
 
 Branch = Literal["physical", "second"]
 
@@ -74,7 +74,7 @@ class RadialSolution:
 
     @property
     def error_estimate(self) -> float:
-        """Largest change of log(sigma / sigma_0), psi, log sigma_0 in the last refinement."""
+        """Of log(sigma / sigma_0), psi and log sigma_0, from the convergence of the mesh."""
         return self.member.error
 
     def psi_at(self, theta: ArrayLike) -> Array:
@@ -118,18 +118,18 @@ class RadialSolution:
         """Return (theta, psi), radians, at the largest psi on [0, theta_w]."""
         theta = np.linspace(0, self.hopper.half_angle, 8 * self.theta.size + 1)
         peak = int(np.argmax(self.psi_at(theta)))
-        if peak == theta.size - 1:
-            return self.hopper.half_angle, self.psi_wall
 
         def slope(angle: float) -> float:
             return float(self.fields(angle)[3][0])
 
-        low, high = theta[max(peak - 1, 0)], theta[peak + 1]
-        angle = brentq(slope, low, high, xtol=1e-13) if slope(low) > 0 > slope(high) else 0.0
-        return float(angle), float(self.psi_at(angle)[0])
+        low, high = theta[max(peak - 1, 0)], theta[min(peak + 1, theta.size - 1)]
+        if slope(low) > 0 > slope(high):
+            angle = brentq(slope, low, high, xtol=1e-13)
+            return float(angle), float(self.psi_at(angle)[0])
+        return float(theta[peak]), float(self.psi_at(theta[peak])[0])
 
     def _inside(self, theta: ArrayLike) -> Array:
-        theta = np.atleast_1d(np.asarray(theta, dtype=float))
+        theta = as_angles("theta", theta)
         if not np.all(np.abs(theta) <= self.hopper.half_angle * (1 + 1e-12)):
             raise InvalidParameterError(
                 f"theta lies outside the hopper: keep |theta| <= half_angle = "
@@ -200,7 +200,7 @@ def solve_radial_family(hopper: Hopper, sigma_axis: float) -> RadialSolution:
     ConvergenceError
         If the fields cannot be resolved.
     """
-    if not (np.isfinite(sigma_axis) and sigma_axis > 0):
+    if not (is_real(sigma_axis) and 0 < sigma_axis < np.inf):
         raise InvalidParameterError(f"sigma_axis = {sigma_axis!r} must be a positive number")
     return solution_of(family.member_with_tau(hopper, 1 / sigma_axis))
 
@@ -218,7 +218,7 @@ def physical_member(
     """Return the member of the physical branch, None beyond its end; tau may be negative.
 
     As :func:`solve_radial`, for sweeps that need no reason where there is no solution. ``start``
-    is a member of the same hopper at a smaller friction.
+    is a member of the same hopper.
 
     Raises
     ------
@@ -233,11 +233,12 @@ def physical_member(
         member = solve(hopper, closure, guess)
         if member is not None and member.psi_wall_by_tau > 0:
             return member
+    before = start and start.psi_wall_by_tau > 0 and start.psi_wall < psi_wall
     try:
-        found = family.members_with_wall_angle(hopper, psi_wall, start)
+        found = family.members_with_wall_angle(hopper, psi_wall, start if before else None)
     except NoRadialSolutionError:
         return None
-    return found[0] if found and found[0].psi_wall_by_tau >= 0 else None
+    return found[0] if found else None
 
 
 def _on_physical_branch(
@@ -289,11 +290,15 @@ def _require_below_limit(hopper: Hopper, friction_angle: float) -> None:
 
 
 def _non_positive_stress(hopper: Hopper, friction_angle: float) -> str:
-    smooth = degrees(np.arcsin(1 / (3 + 2 * hopper.curvature)))
-    bound = family.member_with_tau(hopper, 0.0)
-    phi = hopper.material.friction_angle(hopper.delta, bound.psi_wall)
+    law = hopper.material
+    weight = normal_weight(hopper) + hopper.curvature * law.hoop
+    try:
+        bound = family.member_with_tau(hopper, 0.0).psi_wall
+        least = f"phi > {degrees(law.friction_angle(hopper.delta, bound)):.6g} deg"
+    except NoRadialSolutionError:
+        least = "more friction than its material can transmit"
     return (
         f"average stress is not positive at phi = {degrees(friction_angle):.6g} deg: "
-        f"delta = {degrees(hopper.delta):.6g} deg is too small, a smooth wall needs "
-        f"delta > {smooth:.4f} deg and this delta needs phi > {degrees(phi):.6g} deg; raise delta"
+        f"delta = {degrees(hopper.delta):.6g} deg is too small, a smooth wall needs delta > "
+        f"{degrees(np.arcsin(1 / weight)):.4f} deg and this delta needs {least}; raise delta"
     )

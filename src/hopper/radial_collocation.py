@@ -13,12 +13,13 @@ References
    transformed Chebyshev grid points, SIAM J. Sci. Comput. 28 (2006).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from math import isfinite
 from typing import Literal
 
 import numpy as np
+from scipy.linalg.lapack import dgesv
 
 from hopper import chebyshev
 from hopper.chebyshev import Array
@@ -26,10 +27,13 @@ from hopper.errors import ConvergenceError
 from hopper.problem import Hopper
 
 # Half-grid sizes; a solution on one is confirmed on the next.
-_SIZES = (16, 24, 36, 54, 80, 120, 180)
+_SIZES = (12, 16, 24, 36, 54, 80, 120, 180)
 _NEWTON_STEPS = 25
 _TOLERANCE = 1e-12
 _ACCEPTABLE = 1e-6
+_NEAR_AXIS = 1e-7
+# Factor on the error that geometric convergence predicts; near the singular angle it is slower.
+_SAFETY = 20
 
 
 @dataclass(frozen=True)
@@ -69,7 +73,7 @@ def half_grid(size: int, half_angle: float, clustering: float = 0.0) -> Grid:
         stretch = scale * clustering * np.cosh(clustering * x)
     else:
         theta, stretch = half_angle * x, np.full(size, half_angle)
-    return Grid(
+    grid = Grid(
         half_angle=half_angle,
         clustering=clustering,
         theta=theta,
@@ -80,6 +84,9 @@ def half_grid(size: int, half_angle: float, clustering: float = 0.0) -> Grid:
         d_odd=chebyshev.half_differentiation_matrix(size, "odd") / stretch[:, None],
         axis_row=chebyshev.half_interpolation_matrix(size, 0.0, "even")[0],
     )
+    for array in (grid.theta, grid.cot, grid.cos, grid.sin, grid.d_even, grid.d_odd, grid.axis_row):
+        array.flags.writeable = False
+    return grid
 
 
 @dataclass(frozen=True)
@@ -94,7 +101,8 @@ class Closure:
 class Member:
     """A solution on a grid: ``u`` = (log(sigma / sigma_0), psi, tau), ``tangent`` along the family.
 
-    ``error`` is the size of the Newton step that brought it from the next coarser grid.
+    ``error`` is an estimate of the error of u: absolute in log(sigma / sigma_0) and psi, relative
+    in tau where tau > 1.
     """
 
     hopper: Hopper
@@ -149,18 +157,26 @@ def radial_terms(hopper: Hopper, c2: Array, s2: Array, cot: Array) -> Array:
     ``c2``, ``s2`` are cos 2psi and sin 2psi, ``cot`` is cot(theta).
     """
     k, s, law = hopper.curvature, hopper.s, hopper.material
-    return (
-        (2 + k) * (1 - law.radial * s * c2)
-        - (1 + law.angular * s * c2)
-        - k * (s * s2 * cot + 1 + law.hoop * s + law.hoop_cosine * s * c2)
-    )
+    return 1 - k * law.hoop * s - s * (normal_weight(hopper) * c2 + k * cot * s2)
+
+
+def normal_weight(hopper: Hopper) -> float:
+    """Return the coefficient of -s cos 2psi in the radial equation.
+
+    Without gravity psi = 0 solves that equation where sin(delta) times this, plus the hoop stress,
+    is 1.
+    """
+    k, law = hopper.curvature, hopper.material
+    return (2 + k) * law.radial + law.angular + k * law.hoop_cosine
 
 
 def angular_terms(hopper: Hopper, c2: Array, s2: Array, cot: Array) -> Array:
     """Return the algebraic terms of the angular equation over sigma, without gravity."""
     k, s, law = hopper.curvature, hopper.s, hopper.material
-    hoop_excess = (law.angular - law.hoop_cosine) * c2 - law.hoop
-    return -(3 + k) * s * s2 + k * s * hoop_excess * cot
+    shear = -(3 + k) * s * s2
+    if not k:
+        return shear
+    return shear + s * cot * ((law.angular - law.hoop_cosine) * c2 - law.hoop)
 
 
 def slopes(hopper: Hopper, theta: Array, sigma: Array, psi: Array) -> tuple[Array, Array]:
@@ -174,9 +190,11 @@ def slopes(hopper: Hopper, theta: Array, sigma: Array, psi: Array) -> tuple[Arra
     determinant = 2 * s * (c2 + b * s)
     dlog = (2 * b * s * s2 * radial - 2 * s * c2 * angular) / determinant
     dpsi = ((1 + b * s * c2) * radial + s * s2 * angular) / determinant
-    # At the axis cot(theta) sin(2 psi) tends to 2 psi'.
-    dpsi[axis] = radial[axis] / (2 * s * (1 + k))
-    dlog[axis] = 0.0
+    # Near the axis cot(theta) sin(2 psi) is 2 psi' to second order, and its rounding is not.
+    near = np.abs(theta) < _NEAR_AXIS
+    if near.any():
+        smooth = radial_terms(hopper, c2[near], np.zeros(near.sum()), cot[near])
+        dpsi[near] = (smooth + np.cos(theta[near]) / sigma[near]) / (2 * s * (1 + k))
     return dlog, dpsi
 
 
@@ -185,37 +203,41 @@ def _residual_and_jacobian(hopper: Hopper, grid: Grid, u: Array) -> tuple[Array,
     b, m = law.angular, grid.size
     log_ratio, psi, tau = u[:m], u[m:-1], u[-1]
     c2, s2 = np.cos(2 * psi), np.sin(2 * psi)
-    cot, downward, outward = grid.cot, grid.cos, grid.sin
     lightness = np.exp(-log_ratio)
+    downward, outward = lightness * grid.cos, lightness * grid.sin
     dlog, dpsi = grid.d_even @ log_ratio, grid.d_odd @ psi
-    stiffness = 1 + b * s * c2
+    normal, shear = s * c2, s * s2
+    stiffness, pull = 1 + b * normal, dlog * s2 + 2 * dpsi * c2
 
     residual = np.zeros(2 * m + 1)
-    residual[:m] = -s * (dlog * s2 + 2 * dpsi * c2)
-    residual[:m] += radial_terms(hopper, c2, s2, cot) + tau * lightness * downward
-    residual[m:-1] = dlog * stiffness - 2 * b * s * dpsi * s2
-    residual[m:-1] += angular_terms(hopper, c2, s2, cot) - tau * lightness * outward
+    residual[:m] = radial_terms(hopper, c2, s2, grid.cot) + tau * downward - s * pull
+    residual[m:-1] = (
+        angular_terms(hopper, c2, s2, grid.cot)
+        - tau * outward
+        + dlog * stiffness
+        - 2 * b * dpsi * shear
+    )
 
     jacobian = np.zeros((2 * m + 1, 2 * m + 1))
-    node = np.arange(m)
-    jacobian[:m, :m] = -s * s2[:, None] * grid.d_even
-    jacobian[node, node] -= tau * lightness * downward
-    jacobian[:m, m:-1] = -2 * s * c2[:, None] * grid.d_odd
-    jacobian[node, m + node] += (
-        -2 * s * (dlog * c2 - 2 * dpsi * s2)
-        + 2 * s * s2 * ((2 + k) * law.radial + b + k * law.hoop_cosine)
-        - 2 * k * s * c2 * cot
+    # Diagonals of the four blocks as strided views: adding to them needs no index arrays.
+    step, flat = 2 * m + 2, jacobian.reshape(-1)
+    block = m * (2 * m + 1)
+    np.multiply(-shear[:, None], grid.d_even, out=jacobian[:m, :m])
+    np.multiply(-2 * normal[:, None], grid.d_odd, out=jacobian[:m, m:-1])
+    np.multiply(stiffness[:, None], grid.d_even, out=jacobian[m:-1, :m])
+    np.multiply(-2 * b * shear[:, None], grid.d_odd, out=jacobian[m:-1, m:-1])
+    flat[:block:step] -= tau * downward
+    flat[m:block:step] += (
+        2 * normal_weight(hopper) * shear
+        - 2 * s * (dlog * c2 - 2 * dpsi * s2)
+        - 2 * k * normal * grid.cot
     )
-    jacobian[:m, -1] = lightness * downward
-    jacobian[m:-1, :m] = stiffness[:, None] * grid.d_even
-    jacobian[m + node, node] += tau * lightness * outward
-    jacobian[m:-1, m:-1] = -2 * b * s * s2[:, None] * grid.d_odd
-    jacobian[m + node, m + node] += (
-        -2 * b * s * (dlog * s2 + 2 * dpsi * c2)
-        - 2 * (3 + k) * s * c2
-        - 2 * k * s * s2 * (b - law.hoop_cosine) * cot
+    flat[block : 2 * block : step] += tau * outward
+    flat[block + m : 2 * block : step] -= (
+        2 * b * s * pull + 2 * (3 + k) * normal + 2 * k * (b - law.hoop_cosine) * shear * grid.cot
     )
-    jacobian[m:-1, -1] = -lightness * outward
+    jacobian[:m, -1] = downward
+    jacobian[m:-1, -1] = -outward
     return residual, jacobian
 
 
@@ -230,11 +252,14 @@ def _newton_step(hopper: Hopper, grid: Grid, closure: Closure, u: Array) -> tupl
     column = -2 if closure.unknown == "psi_wall" else -1
     residual[-1] = u[column] - closure.value
     jacobian[-1, column] = 1.0
-    right = np.zeros((u.size, 2))
+    right = np.zeros((u.size, 2), order="F")
     right[:, 0] = -residual
     right[-1, 1] = 1.0
-    step, tangent = np.linalg.solve(jacobian, right).T
-    return step, tangent
+    # LAPACK itself: at this size numpy's checks cost as much as the solution.
+    _, _, solved, info = dgesv(jacobian, right, overwrite_b=True)
+    if info:
+        solved[:] = np.nan
+    return solved[:, 0], solved[:, 1]
 
 
 def _size(step: Array, u: Array) -> float:
@@ -248,41 +273,46 @@ def newton(hopper: Hopper, grid: Grid, closure: Closure, u: Array) -> Member | N
     The member's ``error`` is the size of the first step.
     """
     first = size = 0.0
-    for iteration in range(_NEWTON_STEPS):
-        previous = size
-        try:
-            with np.errstate(over="ignore", invalid="ignore"):
-                step, tangent = _newton_step(hopper, grid, closure, u)
-        except np.linalg.LinAlgError:
-            return None
-        size = _size(step, u)
-        u = u + step
-        if not isfinite(size) or np.abs(u[grid.size : -1]).max() > np.pi / 2:
-            return None
-        if iteration == 0:
-            first = size
-        # Quadratic convergence: after a step of 1e-8 the error is of rounding size. Steps that
-        # no longer shrink are rounding themselves.
-        if size < 1e-8 or (size < 1e-6 and size > previous / 2):
-            return Member(hopper, grid, closure, u, tangent, first)
+    with np.errstate(over="ignore", invalid="ignore"):
+        for iteration in range(_NEWTON_STEPS):
+            previous = size
+            step, tangent = _newton_step(hopper, grid, closure, u)
+            size = _size(step, u)
+            u = u + step
+            if not isfinite(size) or np.abs(u[grid.size : -1]).max() > np.pi / 2:
+                return None
+            if iteration == 0:
+                first = size
+            # Quadratic convergence: after a step of 1e-7 the error is of rounding size. Steps
+            # that no longer shrink are rounding themselves.
+            if size < 1e-7 or (size < 1e-6 and size > previous / 2):
+                return Member(hopper, grid, closure, u, tangent, first)
     return None
 
 
 def crude_start(hopper: Hopper, grid: Grid, psi_wall: float) -> Array:
-    """Return linear psi, uniform stress, and tau from the apex limit of the radial equation."""
-    apex = float(radial_terms(hopper, np.ones(1), np.zeros(1), np.zeros(1))[0])
+    """Return linear psi, with tau and the curvature of log(sigma) that the apex then asks for."""
+    k, s, law = hopper.curvature, hopper.s, hopper.material
     slope = psi_wall / hopper.half_angle
-    tau = 2 * hopper.s * (1 + hopper.curvature) * slope - apex
-    return np.concatenate([np.zeros(grid.size), slope * grid.theta, [tau]])
+    apex = float(radial_terms(hopper, np.ones(1), np.zeros(1), np.zeros(1))[0])
+    tau = 2 * s * (1 + k) * slope - apex
+    shape = 2 * law.angular + k * (law.angular - law.hoop_cosine)
+    curvature = (2 * s * slope * (shape * slope + 3 + k) + tau) / (1 + law.angular * s)
+    log_ratio = curvature / 2 * grid.theta**2
+    return np.concatenate([log_ratio, slope * grid.theta, [tau]])
 
 
 def refine(member: Member) -> Member:
-    """Solve on finer grids until the step from one to the next is of rounding size.
+    """Solve on finer grids until the error is of rounding size.
+
+    The first Newton step on a finer grid is the error of the coarser one. Errors decay
+    geometrically with the number of points, so that of the finer grid is about this step to the
+    power of the ratio of their sizes.
 
     Raises
     ------
     ConvergenceError
-        If the finest grid still changes the solution by more than 1e-6.
+        If the error on the finest grid exceeds 1e-6.
     """
     for size in _SIZES:
         if size <= member.grid.size:
@@ -291,8 +321,11 @@ def refine(member: Member) -> Member:
         finer = newton(member.hopper, grid, member.closure, member.on(grid))
         if finer is None:
             break
-        stagnant = finer.error < 1e-10 and finer.error > member.error / 2
-        member = finer
+        stagnant = finer.error < 1e-9 and finer.error > member.error / 2
+        error = finer.error
+        if not stagnant:
+            error = min(error, _SAFETY * error ** (size / member.grid.size))
+        member = replace(finer, error=max(error, np.finfo(float).eps * size))
         if member.error < _TOLERANCE or stagnant:
             return member
     if member.error < _ACCEPTABLE:
@@ -306,17 +339,16 @@ def refine(member: Member) -> Member:
 def solve(hopper: Hopper, closure: Closure, start: Member | None = None) -> Member | None:
     """Solve from ``start`` (default: a crude guess) on a coarse grid and refine.
 
-    Returns None where Newton's iteration fails.
-
-    Raises
-    ------
-    ConvergenceError
-        As :func:`refine`.
+    Returns None where that does not converge.
     """
     for size in _SIZES[:3]:
         grid = half_grid(size, hopper.half_angle)
         u = crude_start(hopper, grid, closure.value) if start is None else start.on(grid)
         member = newton(hopper, grid, closure, u)
         if member is not None:
-            return refine(member)
+            try:
+                return refine(member)
+            except ConvergenceError:
+                # Too few points can have solutions of their own.
+                continue
     return None

@@ -9,7 +9,8 @@ from scipy.optimize import brentq
 
 from hopper import chebyshev
 from hopper.chebyshev import Array
-from hopper.errors import ConvergenceError, SingularVelocityError
+from hopper.errors import ConvergenceError, InvalidParameterError, SingularVelocityError
+from hopper.problem import as_angles
 from hopper.radial import RadialSolution
 from hopper.yield_conditions import VON_MISES
 
@@ -29,8 +30,19 @@ class VelocityField:
     error_estimate: float
 
     def at(self, theta: ArrayLike) -> Array:
-        """Return u at ``theta`` (radians, |theta| <= theta_w), shape (n,)."""
-        x = np.atleast_1d(np.asarray(theta, dtype=float)) / self.half_angle
+        """Return u at ``theta`` (radians, |theta| <= theta_w), shape (n,).
+
+        Raises
+        ------
+        InvalidParameterError
+            If an angle lies outside the hopper.
+        """
+        x = as_angles("theta", theta) / self.half_angle
+        if not np.all(np.abs(x) <= 1 + 1e-12):
+            raise InvalidParameterError(
+                f"theta lies outside the hopper: keep |theta| <= half_angle = "
+                f"{degrees(self.half_angle):.6g} deg"
+            )
         return np.exp(chebyshev.half_interpolation_matrix(self.log_u.size, x, "even") @ self.log_u)
 
     @property
@@ -42,7 +54,7 @@ class VelocityField:
 def decay_exponent(solution: RadialSolution) -> float:
     """Return c in u' = -c u tan 2psi: 3 (cone), 2 (wedge), sqrt(12) (von Mises)."""
     hopper = solution.hopper
-    return sqrt(12) if hopper.material is VON_MISES else 2.0 + hopper.curvature
+    return sqrt(12) if hopper.material == VON_MISES else 2.0 + hopper.curvature
 
 
 def solve_velocity(solution: RadialSolution) -> VelocityField:

@@ -81,8 +81,6 @@ def yield_condition(name: str) -> YieldCondition:
     InvalidParameterError
         If the name is neither.
     """
-    try:
-        return _BY_NAME[name]
-    except KeyError:
-        choices = " or ".join(_BY_NAME)
-        raise InvalidParameterError(f"model = {name!r} is unknown: use {choices}") from None
+    if not isinstance(name, str) or name not in _BY_NAME:
+        raise InvalidParameterError(f"model = {name!r} is unknown: use {' or '.join(_BY_NAME)}")
+    return _BY_NAME[name]

@@ -1,0 +1,85 @@
+"""The spectral abscissa against the algorithm of the paper, and mesh spectra against LAPACK.
+
+Ratios are medians over repeats in which both sides run one after the other.
+"""
+
+from collections.abc import Callable
+from functools import partial
+from math import radians
+from statistics import median
+from time import perf_counter
+
+import numpy as np
+from scipy.linalg import eigvals
+
+from hopper import chebyshev
+from hopper.collocation import paper_matrix
+from hopper.problem import Geometry, Hopper
+from hopper.radial import RadialSolution, solve_radial
+from hopper.spectrum import Complex, convergence_filter, mesh_spectrum, relative_changes
+from hopper.stability import Stability, stability, upper_eigenvalues
+
+MESHES = (400, 200)
+TOLERANCE = 1e-3
+GEOMETRIES: tuple[Geometry, ...] = ("wedge", "cone")
+
+
+def by_lapack(solution: RadialSolution) -> list[Complex]:
+    """Eigenvalues of the whole matrices."""
+    return [np.asarray(eigvals(paper_matrix(solution, n)), complex) for n in MESHES]
+
+
+def by_the_paper(solution: RadialSolution) -> float:
+    """Spectral abscissa of what both meshes agree on."""
+    fine, coarse = by_lapack(solution)
+    return float(fine[relative_changes(fine, coarse, "nearest") < TOLERANCE].real.max())
+
+
+def by_line_and_low_modes(hopper: Hopper) -> Stability:
+    return stability(solve_radial(hopper, 0.0))
+
+
+def filtered_spectrum(hopper: Hopper) -> None:
+    """Radial solution, both mesh spectra with their eigenvectors, and the verdicts."""
+    solution = solve_radial(hopper, 0.0)
+    fine, coarse = (mesh_spectrum(solution, n) for n in MESHES)
+    convergence_filter(fine, coarse, TOLERANCE)
+
+
+def seconds(call: Callable[[], object], times: int) -> float:
+    """Mean time of a call."""
+    start = perf_counter()
+    for _ in range(times):
+        call()
+    return (perf_counter() - start) / times
+
+
+def ratio(slow: Callable[[], object], quick: Callable[[], object], times: int) -> float:
+    """Median of time(slow) / time(quick), ``quick`` the mean of ``times`` calls."""
+    slow(), quick()
+    return median(seconds(slow, 1) / seconds(quick, times) for _ in range(9))
+
+
+def derivative_error(n: int) -> float:
+    """Largest error of the differentiation matrix on exp(sin(3 x))."""
+    x = chebyshev.nodes(n)
+    values = np.exp(np.sin(3 * x))
+    slopes = chebyshev.differentiation_matrix(n) @ values
+    return float(np.abs(slopes - 3 * np.cos(3 * x) * values).max())
+
+
+def main() -> None:
+    """Print ratios and errors for the hopper of Figure 4.2."""
+    for geometry in GEOMETRIES:
+        hopper = Hopper(geometry, radians(35), radians(10))
+        solution = solve_radial(hopper, 0.0)
+        fast = partial(by_line_and_low_modes, hopper)
+        found = fast()
+        reference = upper_eigenvalues(solution, 108)[: found.eigenvalues.size]
+        error = abs(found.abscissa - max(reference.real.max(), found.line.abscissa))
+        speed_up = ratio(partial(by_the_paper, solution), fast, 100)
+        overhead = ratio(partial(filtered_spectrum, hopper), partial(by_lapack, solution), 1)
+        print(f"{geometry}: algorithm of the paper / radial + stability  {speed_up:8.0f} x")
+        print(f"{geometry}: error of the abscissa                        {error:8.1e}")
+        print(f"{geometry}: radial + mesh spectra + filter / LAPACK      {overhead:8.2f} x")
+    print(f"error of D at N = 400                               {derivative_error(400):8.1e}")
