@@ -1,8 +1,9 @@
 """Time of scipy's solve_bvp over that of solve_radial, both at an error of at most 1e-10.
 
-solve_bvp gets vectorised slopes, the apex as its singular term, a good guess, and the tolerance that
-just reaches the error; then also the exact Jacobian; then also the best of several starting meshes,
-which nobody knows beforehand. Errors are the largest in log sigma and psi against a much finer mesh.
+solve_bvp gets vectorised slopes, the apex as its singular term, a good guess, and the tolerance
+that just reaches the error; then also the exact Jacobian; then also the best of several starting
+meshes, which nobody knows beforehand. Errors are the largest in log sigma and psi against a much
+finer mesh.
 Times are processor times, medians of alternating runs: other load on the machine does not enter.
 """
 

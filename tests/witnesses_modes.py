@@ -1,6 +1,6 @@
-"""Kept modes from the whole matrix of the paper's case, both parities in one, as plain dense algebra.
+"""Kept modes of the paper's case from its whole matrix, both parities in one, by dense algebra.
 
-delta = 35 deg, half angle 10 deg, mu = 0. Norms come as weights of their own.
+delta = 35 deg, half angle 10 deg, mu = 0. Weights of the norms are computed a second way.
 """
 
 from functools import lru_cache

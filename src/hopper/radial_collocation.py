@@ -151,17 +151,15 @@ class Member:
         return np.concatenate([even @ self.log_ratio, odd @ self.psi, self.u[-1:]])
 
 
-def radial_terms(hopper: Hopper, c2: Array, s2: Array, cot: Array) -> Array:
-    """Return the algebraic terms of the radial equation over sigma, without gravity.
-
-    ``c2``, ``s2`` are cos 2psi and sin 2psi, ``cot`` is cot(theta).
-    """
-    k, s, law = hopper.curvature, hopper.s, hopper.material
-    return 1 - k * law.hoop * s - s * (normal_weight(hopper) * c2 + k * cot * s2)
+# Terms of the radial equations over sigma, and what is computed from them. L is log sigma.
+_TERMS = (
+    "1", "versine cot", "cos", "sin", "cos cot", "sin cot", "cos L'", "sin L'", "cos psi'",
+    "sin psi'", "L'", "down", "out",
+)  # fmt: skip
 
 
 def normal_weight(hopper: Hopper) -> float:
-    """Return the coefficient of -s cos 2psi in the radial equation.
+    """Return the coefficient of -sin(delta) cos(2 psi) in the radial equation.
 
     Without gravity psi = 0 solves that equation where sin(delta) times this, plus the hoop stress,
     is 1.
@@ -170,74 +168,89 @@ def normal_weight(hopper: Hopper) -> float:
     return (2 + k) * law.radial + law.angular + k * law.hoop_cosine
 
 
-def angular_terms(hopper: Hopper, c2: Array, s2: Array, cot: Array) -> Array:
-    """Return the algebraic terms of the angular equation over sigma, without gravity."""
+@lru_cache(maxsize=256)
+def _equations(hopper: Hopper) -> Array:
+    """Return the coefficients of the terms, shape (8, len(_TERMS)); sin, cos are of 2 psi.
+
+    The versine is 1 - cos. Rows: radial and angular equation; their derivatives by psi, slopes held;
+    the factors of L' and psi' in the radial, and in the angular equation.
+    """
     k, s, law = hopper.curvature, hopper.s, hopper.material
-    shear = -(3 + k) * s * s2
-    if not k:
-        return shear
-    return shear + s * cot * ((law.angular - law.hoop_cosine) * c2 - law.hoop)
+    # T_tt - T_pp over sigma is s (excess cos 2psi - hoop), and 0 on the axis: hoop is the excess.
+    b, excess = law.angular, law.angular - law.hoop_cosine
+    normal = s * normal_weight(hopper)
+    rows: list[dict[str, float]] = [
+        {"1": 1 - k * law.hoop * s, "cos": -normal, "sin cot": -k * s, "sin L'": -s,
+         "cos psi'": -2 * s, "down": 1},
+        {"sin": -(3 + k) * s, "versine cot": -k * s * excess, "L'": 1,
+         "cos L'": b * s, "sin psi'": -2 * b * s, "out": -1},
+        {"sin": 2 * normal, "cos cot": -2 * k * s, "cos L'": -2 * s, "sin psi'": 4 * s},
+        {"cos": -2 * (3 + k) * s, "sin cot": -2 * k * s * excess, "sin L'": -2 * b * s,
+         "cos psi'": -4 * b * s},
+        {"sin": -s},
+        {"cos": -2 * s},
+        {"1": 1, "cos": b * s},
+        {"sin": -2 * b * s},
+    ]  # fmt: skip
+    return np.array([[row.get(term, 0.0) for term in _TERMS] for row in rows])
+
+
+def _terms(psi: Array, cot: Array, dlog: Array, dpsi: Array, down: Array, out: Array) -> Array:
+    """Return the terms in their order, shape (len(_TERMS), n)."""
+    double = 2 * psi
+    terms = np.ones((len(_TERMS), psi.size))
+    np.cos(double, out=terms[2])
+    np.sin(double, out=terms[3])
+    for row, factor in ((4, cot), (6, dlog), (8, dpsi)):
+        np.multiply(terms[2:4], factor, out=terms[row : row + 2])
+    # (1 - cos) cot without cancellation near the axis.
+    terms[1] = terms[5] * terms[3] / (1 + terms[2])
+    terms[10], terms[11], terms[12] = dlog, down, out
+    return terms
 
 
 def slopes(hopper: Hopper, theta: Array, sigma: Array, psi: Array) -> tuple[Array, Array]:
     """Return d log(sigma)/d theta and d psi/d theta that the equations prescribe, shape (n,)."""
-    k, s, b = hopper.curvature, hopper.s, hopper.material.angular
-    c2, s2 = np.cos(2 * psi), np.sin(2 * psi)
-    axis = theta == 0
-    cot = np.divide(1.0, np.tan(theta), out=np.zeros_like(theta), where=~axis)
-    radial = radial_terms(hopper, c2, s2, cot) + np.cos(theta) / sigma
-    angular = angular_terms(hopper, c2, s2, cot) - np.sin(theta) / sigma
-    determinant = 2 * s * (c2 + b * s)
-    dlog = (2 * b * s * s2 * radial - 2 * s * c2 * angular) / determinant
-    dpsi = ((1 + b * s * c2) * radial + s * s2 * angular) / determinant
-    # Near the axis cot(theta) sin(2 psi) is 2 psi' to second order, and its rounding is not.
     near = np.abs(theta) < _NEAR_AXIS
+    cot = np.divide(1.0, np.tan(theta), out=np.zeros_like(theta), where=theta != 0)
+    flat = np.zeros_like(theta)
+    terms = _terms(psi, cot, flat, flat, np.cos(theta) / sigma, np.sin(theta) / sigma)
+    radial, angular, _, _, radial_l, radial_psi, angular_l, angular_psi = _equations(hopper) @ terms
+    determinant = radial_l * angular_psi - radial_psi * angular_l
+    dlog = (radial_psi * angular - angular_psi * radial) / determinant
+    dpsi = (angular_l * radial - radial_l * angular) / determinant
     if near.any():
-        smooth = radial_terms(hopper, c2[near], np.zeros(near.sum()), cot[near])
-        dpsi[near] = (smooth + np.cos(theta[near]) / sigma[near]) / (2 * s * (1 + k))
+        # There cot(theta) sin(2 psi) is 2 psi' to second order, and its rounding is not.
+        terms[_TERMS.index("sin cot")] = 0.0
+        smooth = _equations(hopper)[0] @ terms[:, near]
+        dpsi[near] = smooth / (2 * hopper.s * (1 + hopper.curvature))
     return dlog, dpsi
 
 
 def _residual_and_jacobian(hopper: Hopper, grid: Grid, u: Array) -> tuple[Array, Array]:
-    k, s, law = hopper.curvature, hopper.s, hopper.material
-    b, m = law.angular, grid.size
-    log_ratio, psi, tau = u[:m], u[m:-1], u[-1]
-    c2, s2 = np.cos(2 * psi), np.sin(2 * psi)
-    lightness = np.exp(-log_ratio)
-    downward, outward = lightness * grid.cos, lightness * grid.sin
-    dlog, dpsi = grid.d_even @ log_ratio, grid.d_odd @ psi
-    normal, shear = s * c2, s * s2
-    stiffness, pull = 1 + b * normal, dlog * s2 + 2 * dpsi * c2
+    m, tau = grid.size, u[-1]
+    lightness = np.exp(-u[:m])
+    down, out = lightness * grid.cos, lightness * grid.sin
+    terms = _terms(
+        u[m:-1], grid.cot, grid.d_even @ u[:m], grid.d_odd @ u[m:-1], tau * down, tau * out
+    )
+    rows = _equations(hopper) @ terms
 
     residual = np.zeros(2 * m + 1)
-    residual[:m] = radial_terms(hopper, c2, s2, grid.cot) + tau * downward - s * pull
-    residual[m:-1] = (
-        angular_terms(hopper, c2, s2, grid.cot)
-        - tau * outward
-        + dlog * stiffness
-        - 2 * b * dpsi * shear
-    )
+    residual[:-1] = rows[:2].reshape(-1)
 
     jacobian = np.zeros((2 * m + 1, 2 * m + 1))
+    for block, factors in ((slice(0, m), rows[4:6]), (slice(m, 2 * m), rows[6:8])):
+        np.multiply(factors[0][:, None], grid.d_even, out=jacobian[block, :m])
+        np.multiply(factors[1][:, None], grid.d_odd, out=jacobian[block, m:-1])
     # Diagonals of the four blocks as strided views: adding to them needs no index arrays.
-    step, flat = 2 * m + 2, jacobian.reshape(-1)
-    block = m * (2 * m + 1)
-    np.multiply(-shear[:, None], grid.d_even, out=jacobian[:m, :m])
-    np.multiply(-2 * normal[:, None], grid.d_odd, out=jacobian[:m, m:-1])
-    np.multiply(stiffness[:, None], grid.d_even, out=jacobian[m:-1, :m])
-    np.multiply(-2 * b * shear[:, None], grid.d_odd, out=jacobian[m:-1, m:-1])
-    flat[:block:step] -= tau * downward
-    flat[m:block:step] += (
-        2 * normal_weight(hopper) * shear
-        - 2 * s * (dlog * c2 - 2 * dpsi * s2)
-        - 2 * k * normal * grid.cot
-    )
-    flat[block : 2 * block : step] += tau * outward
-    flat[block + m : 2 * block : step] -= (
-        2 * b * s * pull + 2 * (3 + k) * normal + 2 * k * (b - law.hoop_cosine) * shear * grid.cot
-    )
-    jacobian[:m, -1] = downward
-    jacobian[m:-1, -1] = -outward
+    step, flat, half = 2 * m + 2, jacobian.reshape(-1), m * (2 * m + 1)
+    flat[:half:step] -= terms[11]
+    flat[m:half:step] += rows[2]
+    flat[half : 2 * half : step] += terms[12]
+    flat[half + m : 2 * half : step] += rows[3]
+    jacobian[:m, -1] = down
+    jacobian[m:-1, -1] = -out
     return residual, jacobian
 
 
@@ -294,7 +307,7 @@ def crude_start(hopper: Hopper, grid: Grid, psi_wall: float) -> Array:
     """Return linear psi, with tau and the curvature of log(sigma) that the apex then asks for."""
     k, s, law = hopper.curvature, hopper.s, hopper.material
     slope = psi_wall / hopper.half_angle
-    apex = float(radial_terms(hopper, np.ones(1), np.zeros(1), np.zeros(1))[0])
+    apex = 1 - s * (k * law.hoop + normal_weight(hopper))
     tau = 2 * s * (1 + k) * slope - apex
     shape = 2 * law.angular + k * (law.angular - law.hoop_cosine)
     curvature = (2 * s * slope * (shape * slope + 3 + k) + tau) / (1 + law.angular * s)

@@ -115,7 +115,7 @@ def modal_basis(
     found = match_kept(wanted, values)
     real = found[values[found].imag == 0]
     upper = found[values[found].imag > 0]
-    if real.size + 2 * upper.size != wanted.size:
+    if set(found) != set(match_kept(wanted.conj(), values)):
         raise InvalidParameterError("kept eigenvalues are not closed under conjugation")
     weighted = root[:, None] * vectors
     weighted = weighted / np.linalg.norm(weighted, axis=0)
