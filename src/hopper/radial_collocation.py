@@ -172,8 +172,8 @@ def normal_weight(hopper: Hopper) -> float:
 def _equations(hopper: Hopper) -> Array:
     """Return the coefficients of the terms, shape (8, len(_TERMS)); sin, cos are of 2 psi.
 
-    The versine is 1 - cos. Rows: radial and angular equation; their derivatives by psi, slopes held;
-    the factors of L' and psi' in the radial, and in the angular equation.
+    The versine is 1 - cos. Rows: radial and angular equation; their derivatives by psi, slopes
+    held; the factors of L' and psi' in the radial, and in the angular equation.
     """
     k, s, law = hopper.curvature, hopper.s, hopper.material
     # T_tt - T_pp over sigma is s (excess cos 2psi - hoop), and 0 on the axis: hoop is the excess.
