@@ -311,14 +311,14 @@ def test_borders_agree_with_what_they_are_made_of():
 
 
 @pytest.mark.parametrize(
-    ("delta", "half_angle", "fold", "unit"),
-    [(30, 10, 28.61, 0.01), (30, 30, 19.73, 0.01), (40, 30, 17.90, 0.01)],
+    ("delta", "half_angle", "fold"),
+    [(30, 10, 28.61), (30, 30, degrees(atan(0.3588))), (40, 30, 17.90)],
 )
-def test_known_folds(delta, half_angle, fold, unit):
+def test_known_folds(delta, half_angle, fold):
     found = borders("cone", radians(half_angle), [radians(delta)])
     assert found.end == ("fold",)
-    # Digits of the table were cut or rounded.
-    assert degrees(found.limit[0]) == pytest.approx(fold, abs=1.01 * unit)
+    # Two decimals, cut or rounded.
+    assert degrees(found.limit[0]) == pytest.approx(fold, abs=0.01)
 
 
 @pytest.mark.parametrize(("geometry", "delta"), [("cone", 20), ("wedge", 35)])
@@ -371,5 +371,5 @@ def test_area_by_counting_stable_hoppers():
 
 @pytest.mark.parametrize("step", [0, -0.1, nan])
 def test_bad_steps(step):
-    with pytest.raises(InvalidParameterError, match="step = .* must be"):
+    with pytest.raises(InvalidParameterError, match="step = "):
         neutral_curve("cone", radians(10), step)

@@ -2,6 +2,8 @@
 
 import ast
 import os
+import shlex
+import sys
 from functools import lru_cache
 from pathlib import Path
 
@@ -16,6 +18,9 @@ def let_scripts_import(root: Path) -> None:
     inherited = os.environ.get("PYTHONPATH", "").split(os.pathsep)
     kept = [folder for folder in inherited if folder and folder not in folders]
     os.environ["PYTHONPATH"] = os.pathsep.join(folders + kept)
+    # Snakemake puts the interpreter into shell commands as it is: a path with a space breaks them.
+    if os.path.exists(sys.executable):
+        sys.executable = shlex.quote(sys.executable)
 
 
 @lru_cache(maxsize=1)
