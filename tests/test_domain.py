@@ -39,6 +39,17 @@ def abscissa(geometry, delta, half_angle, friction_angle):
     return stability(solve_radial(Hopper(geometry, delta, half_angle), friction_angle)).abscissa
 
 
+def reaching(hopper, level):
+    """Friction angle at which psi reaches a level that it does reach."""
+    found = friction_reaching(hopper, level)
+    assert found is not None
+    return found
+
+
+def tangent(hopper):
+    return reaching(hopper, pi / 4 - hopper.delta / 2)
+
+
 @lru_cache(maxsize=8)
 def curve(geometry, half_angle, step=1.6):
     return neutral_curve(geometry, radians(half_angle), radians(step))
@@ -77,9 +88,7 @@ def test_abscissa_changes_sign_at_the_neutral_point(geometry, half_angle, fricti
 
 @pytest.mark.parametrize(("geometry", "s"), [("cone", 5 / 9), ("wedge", 2 / 3)])
 def test_neutral_points_of_smooth_walls_tend_to_theory(geometry, s):
-    wide, narrow = (
-        degrees(neutral_delta(geometry, radians(angle), 0.0)) for angle in (1.0, 0.5)
-    )
+    wide, narrow = (degrees(neutral_delta(geometry, radians(angle), 0.0)) for angle in (1.0, 0.5))
     limit = (4 * narrow - wide) / 3
     assert abs(wide - narrow) > 1e-4
     # The next term is smaller by the square of the angle.
@@ -109,10 +118,10 @@ def test_no_neutral_point_beyond_the_tangency(half_angle, friction_angle):
 
 def test_bad_neutral_points():
     for half_angle in (0, -0.1, 2, nan):
-        with pytest.raises(InvalidParameterError, match="half_angle = .* is out of range"):
+        with pytest.raises(InvalidParameterError, match=r"half_angle = .* is out of range"):
             neutral_delta("cone", half_angle, 0.1)
     for friction_angle in (-0.1, 2, nan, inf):
-        with pytest.raises(InvalidParameterError, match="friction_angle = .* is out of range"):
+        with pytest.raises(InvalidParameterError, match=r"friction_angle = .* is out of range"):
             neutral_delta("cone", 0.1, friction_angle)
     with pytest.raises(InvalidParameterError, match="geometry = 'pyramid' is unknown"):
         neutral_delta("pyramid", 0.1, 0.1)  # type: ignore[arg-type]
@@ -143,7 +152,7 @@ def test_points_of_the_neutral_curve_are_roots(geometry, half_angle):
 def test_neutral_curve_ends_at_the_tangency(geometry, half_angle):
     found = curve(geometry, half_angle)
     hopper = Hopper(geometry, float(found.delta[-1]), radians(half_angle))
-    gap = tangency_friction(hopper) - found.friction_angle[-1]
+    gap = tangent(hopper) - found.friction_angle[-1]
     assert 0 <= gap < radians(1e-4)
     # Beyond its end no delta is neutral.
     with pytest.raises(NoNeutralPointError):
@@ -169,15 +178,14 @@ def test_thinned_curve(size, index):
 def test_curve_and_tangency_enclose_the_stable_hoppers(geometry, half_angle):
     neutral = curve(geometry, half_angle)
     random = np.random.default_rng(4)
-    checked = []
+    checked: list[bool] = []
     while len(checked) < 40:
         delta, phi = np.radians(random.uniform([15, 0], [60, 20]))
         hopper = Hopper(geometry, delta, radians(half_angle))
-        tangency = tangency_friction(hopper)
-        assert tangency is not None
+        tangency = tangent(hopper)
         border = np.interp(phi, neutral.friction_angle, neutral.delta)
         if phi < tangency and phi < neutral.friction_angle[-1] and abs(delta - border) > 0.01:
-            checked.append(delta > border)
+            checked.append(bool(delta > border))
             assert stability(solve_radial(hopper, phi)).stable == checked[-1]
     assert 5 < sum(checked) < 35
 
@@ -192,7 +200,8 @@ def test_curve_and_tangency_enclose_the_stable_hoppers(geometry, half_angle):
 def test_tangency_at_the_wall(geometry, delta, mu):
     s, c = sin(radians(delta)), cos(radians(delta))
     hopper = make(geometry, delta, 10)
-    found = tangency_friction(hopper)
+    found = tangent(hopper)
+    assert found == tangency_friction(hopper)
     assert tan(found) == pytest.approx(mu, abs=5e-4)
     assert tan(found) == pytest.approx(s * c / (1 + s**2), rel=1e-12)
     assert wall_tangency_friction(hopper.delta) == pytest.approx(found, rel=1e-12)
@@ -204,7 +213,8 @@ def test_tangency_at_the_wall(geometry, delta, mu):
 @pytest.mark.parametrize(("delta", "mu"), [(25, 0.3109606), (30, None), (50, None)])
 def test_tangency_inside(delta, mu):
     hopper, level = make("cone", delta, 30), pi / 4 - radians(delta) / 2
-    found = tangency_friction(hopper)
+    found = reaching(hopper, level)
+    assert found == tangency_friction(hopper)
     if mu:
         assert tan(found) == pytest.approx(mu, abs=5e-8)
     assert found < wall_tangency_friction(hopper.delta) - radians(0.5)
@@ -232,7 +242,7 @@ def test_singular_velocity_at_the_wall(geometry, delta):
 @pytest.mark.parametrize("level", [radians(20), radians(35), pi / 4])
 def test_friction_reaching_a_level_inside(level):
     hopper = make("cone", 30, 30)
-    found = friction_reaching(hopper, level)
+    found = reaching(hopper, level)
     assert solve_radial(hopper, found).psi_maximum()[1] == pytest.approx(level, abs=1e-10)
     assert found < friction_limit(hopper).friction_angle
     assert solve_radial(hopper, found * (1 - 1e-4)).psi_maximum()[1] < level

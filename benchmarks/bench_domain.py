@@ -1,0 +1,94 @@
+"""Stability maps: time per point, against the paper's algorithm, and its growth with the grid.
+
+A map is swept as the workflow does, a row of wall frictions for each delta. Times are processor
+times, medians of several runs; `OPENBLAS_NUM_THREADS=1 python -m benchmarks.bench_domain large`
+adds the map of 400 x 400 points. The peak is that of the process, other benchmarks included.
+"""
+
+import resource
+import sys
+from collections.abc import Callable
+from math import radians
+from statistics import median
+from time import process_time
+
+import numpy as np
+from scipy.linalg import eigvals
+
+from hopper.collocation import paper_matrix
+from hopper.problem import Hopper
+from hopper.radial import RadialSolution, solve_radial
+from hopper.spectrum import relative_changes
+from hopper.stability_map import sweep_friction
+
+MESHES = (400, 200)
+TOLERANCE = 1e-3
+HALF_ANGLES = (10, 30)
+# delta, phi (deg) of the hopper for the paper's algorithm, whose cost depends on neither.
+POINT = (35.0, 10.0)
+
+
+def sweep_map(half_angle: float, side: int) -> int:
+    """Sweep delta over 12 ... 60 deg and phi over 0 ... 30 deg; return the number of verdicts."""
+    phis = np.radians(np.linspace(0, 30, side))
+    verdicts = 0
+    for delta in np.radians(np.linspace(12, 60, side)):
+        sweep = sweep_friction(Hopper("cone", float(delta), radians(half_angle)), phis)
+        verdicts += int(np.isfinite(sweep.abscissa).sum())
+    return verdicts
+
+
+def by_the_paper(solution: RadialSolution) -> float:
+    """Spectral abscissa of what two meshes agree on, both parities in one matrix."""
+    fine, coarse = (np.asarray(eigvals(paper_matrix(solution, n)), dtype=complex) for n in MESHES)
+    return float(fine[relative_changes(fine, coarse, "nearest") < TOLERANCE].real.max())
+
+
+def seconds(call: Callable[[], object]) -> float:
+    start = process_time()
+    call()
+    return process_time() - start
+
+
+def per_point(half_angle: float, side: int, repeats: int) -> float:
+    """Milliseconds per map point, median."""
+    times = [seconds(lambda: sweep_map(half_angle, side)) for _ in range(repeats)]
+    return 1e3 * median(times) / side**2
+
+
+def row(name: str, value: float, target: str = "") -> None:
+    print(f"{name:<56} {value:10.4g}   {target}", flush=True)
+
+
+def main() -> None:
+    """Print times, ratios and memory."""
+    large = "large" in sys.argv[1:]
+    for half_angle in HALF_ANGLES:
+        delta, phi = map(radians, POINT)
+        solution = solve_radial(Hopper("cone", delta, radians(half_angle)), phi)
+        by_the_paper(solution), sweep_map(half_angle, 4)
+        # One after the other, so that both sides see the same machine.
+        points, ratios, verdict_ratios = [], [], []
+        verdicts = sweep_map(half_angle, 60)
+        for _ in range(3):
+            time = seconds(lambda: sweep_map(half_angle, 60))  # noqa: B023
+            paper = median(seconds(lambda: by_the_paper(solution)) for _ in range(3))  # noqa: B023
+            points.append(1e3 * time / 60**2)
+            ratios.append(paper * 60**2 / time)
+            verdict_ratios.append(paper * verdicts / time)
+        name = f"cone {half_angle} deg, 60 x 60"
+        row(f"{name}: ms a point", median(points), "<= 3")
+        row(f"{name}: share of points with a verdict", verdicts / 60**2)
+        row(f"{name}: paper's algorithm / a point", median(ratios), ">= 300")
+        row(f"{name}: paper's algorithm / a point with a verdict", median(verdict_ratios))
+    small = per_point(10, 50, 5)
+    for side, repeats in ((200, 1), (400, 1))[: 1 + large]:
+        ratio = per_point(10, side, repeats) / small
+        row(f"cone 10 deg: ms a point, {side} x {side} / 50 x 50", ratio, "0.8 ... 1.2")
+    # Linux counts in KiB.
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    row("peak memory, MiB", peak, "<= 500")
+
+
+if __name__ == "__main__":
+    main()
