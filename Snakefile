@@ -8,6 +8,7 @@ configfile: "config.yaml"
 
 
 include: "workflow/rules/common.smk"
+include: "workflow/rules/parameters.smk"
 include: "workflow/rules/geometry.smk"
 include: "workflow/rules/radial.smk"
 include: "workflow/rules/flow_factor.smk"

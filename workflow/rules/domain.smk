@@ -10,11 +10,6 @@ CASES = [
 ]
 
 
-def curve(key):
-    """A parameter of a figure over wall friction."""
-    return lambda wildcards: config["friction_curves"][wildcards.figure][key]
-
-
 rule compute_friction_curve:
     input:
         code=code_of("compute_friction_curve"),

@@ -5,22 +5,6 @@
 FIGURES += ["fig_4_1", "fig_4_2", "fig_4_2_physical"]
 
 
-def hopper_of(wildcards):
-    """Parameters of the hopper whose spectrum a figure shows."""
-    case = config["spectra"][wildcards.figure]
-    return {name: case[name] for name in ["delta_deg", "half_angle_deg", "mu"]}
-
-
-def mesh(which):
-    """Spectrum on one of the two meshes of a figure."""
-
-    def path(wildcards):
-        nodes = config["spectra"][wildcards.figure][which]
-        return f"results/spectrum/{wildcards.figure}/{wildcards.geometry}_{nodes}.nc"
-
-    return path
-
-
 rule compute_spectrum:
     input:
         code=code_of("compute_spectrum"),

@@ -5,20 +5,6 @@
 FIGURES += ["fig_4_3", "fig_4_3_norms", "fig_pseudospectrum", "fig_resolvent"]
 
 
-def spectrum_case(spectrum, geometry):
-    """Hopper of one of the discrete spectra, by its name in the configuration."""
-    case = config["spectra"][spectrum]
-    return {
-        "geometry": geometry,
-        **{name: case[name] for name in ["delta_deg", "half_angle_deg", "mu"]},
-    }
-
-
-def transient(key):
-    """A parameter of a transient figure."""
-    return lambda wildcards: config["transient"][wildcards.figure][key]
-
-
 PSEUDO = config["pseudospectrum"]
 
 
