@@ -73,7 +73,7 @@ def compute_sensitivity(
                 (), condition_number(bases), "kappa(V) of the kept eigenvectors"
             ),
             "distance": fields.number(
-                (), measures.distance, "largest perturbation that leaves the verdict standing"
+                (), measures.distance, "smallest perturbation that puts an eigenvalue on the axis"
             ),
             "distance_frequency": fields.number((), measures.frequency, "Im(z) of the distance"),
             "kreiss_bound": fields.number((), measures.kreiss, "Kreiss bound of the growth"),

@@ -29,9 +29,11 @@ def merge_map(
         artifacts.read(path, {**parameters, "chunk": index, "chunks": len(chunks)})
         for index, path in enumerate(chunks)
     ]
-    merged = (
-        xr.concat(parts, "delta", combine_attrs="drop_conflicts").sortby("row").drop_vars("row")
-    )
+    merged = xr.concat(parts, "delta", combine_attrs="drop_conflicts")
+    merged = merged.sortby("row").drop_vars("row")
+    for variable in merged.variables.values():
+        # As read, it still names the dropped coordinate.
+        variable.encoding.pop("coordinates", None)
     artifacts.write(
         merged,
         artifact,

@@ -83,6 +83,17 @@ def test_why_it_is_wrong():
     assert np.all(drift[1:] > drift[:-1] / 4)
 
 
+def test_physical_variant_stops_at_the_first_unresolved_mode():
+    # Beyond it a straggler of the flow's own parity agrees by chance, with Re > 0.
+    solution = radial("cone", 35, 30)
+    fine, coarse = (eigvals(half_matrix(solution, n // 2, "physical")) for n in (400, 200))
+    agreed = [z for z in fine if np.abs(coarse - z).min() < TOLERANCE * abs(z)]
+    assert max(z.real for z in agreed) > 0.6
+    found, expected = paper_abscissa(solution, 400, 200, TOLERANCE), stability(solution)
+    assert expected.abscissa < -0.3
+    assert found.physical == pytest.approx(expected.abscissa, abs=1e-5)
+
+
 def test_refusals():
     solution = radial("wedge", 35, 10)
     for n, coarse_n in ((201, 100), (200, 101), (200, 2)):

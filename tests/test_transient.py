@@ -13,6 +13,7 @@ from hopper.errors import InvalidParameterError
 from hopper.spectrum import HALVES
 from hopper.transient import (
     NORMS,
+    ModalBasis,
     abscissa,
     condition_number,
     half_weights,
@@ -126,6 +127,14 @@ def test_modal_matrix_and_condition_number(geometry, norm, psi_scale):
             np.linalg.svd(mine, compute_uv=False),
             rtol=EPS * kappa * matrix_norm(geometry, n),
         )
+
+
+def test_condition_number_of_both_parities_together():
+    # Largest singular value of one, smallest of the other.
+    values = np.array([1, 2], dtype=complex)
+    parts = [ModalBasis(values, np.diag(r)) for r in ([4.0, 2.0], [1.0, 0.5])]
+    assert [condition_number([part]) for part in parts] == [2, 2]
+    assert condition_number(parts) == 8
 
 
 # The mesh.

@@ -18,12 +18,13 @@ from hopper.chebyshev import Array
 from hopper.errors import (
     ConvergenceError,
     HopperError,
+    InvalidParameterError,
     NonPositiveStressError,
     NoRadialSolutionError,
     TangencyError,
 )
 from hopper.family import family, friction_limit, neighbour
-from hopper.problem import Geometry, Hopper, require_angle
+from hopper.problem import Geometry, Hopper, is_real, require_angle
 from hopper.radial import solution_of, solve_radial
 from hopper.radial_collocation import Closure, Member
 from hopper.stability import stability
@@ -43,7 +44,8 @@ class NoNeutralPointError(HopperError):
 def friction_reaching(hopper: Hopper, psi: float) -> float | None:
     """Return the wall friction angle (radians) at which the largest psi equals ``psi`` (radians).
 
-    None where the smooth wall already exceeds it, or the physical branch ends below it.
+    None where the smooth wall already exceeds it, the physical branch ends below it, or the stress
+    is not positive there.
 
     Raises
     ------
@@ -53,8 +55,6 @@ def friction_reaching(hopper: Hopper, psi: float) -> float | None:
     below: Member | None = None
     try:
         for member in family(hopper):
-            if member.tau <= 0:
-                continue
             if _largest_psi(member) >= psi:
                 return _friction_between(below, member, psi) if below else None
             below = member
@@ -68,12 +68,12 @@ def _largest_psi(member: Member) -> float:
 
 
 def _friction_between(below: Member, above: Member, psi: float) -> float | None:
-    """Locate the level between two members; None beyond the fold."""
+    """Locate the level between two members; None beyond the fold or without positive stress."""
     law, delta = below.hopper.material, below.hopper.delta
     if below.psi_wall < psi <= above.psi_wall:
         at_wall = neighbour(below, Closure("psi_wall", psi))
         if _largest_psi(at_wall) <= psi + _TOLERANCE:
-            return law.friction_angle(delta, psi)
+            return law.friction_angle(delta, psi) if at_wall.tau > 0 else None
     unknown = above.closure.unknown
     low, high = (float(getattr(member, unknown)) for member in (below, above))
 
@@ -83,7 +83,7 @@ def _friction_between(below: Member, above: Member, psi: float) -> float | None:
     # psi at the wall is at most the largest psi: no need to look beyond the level.
     high = min(high, psi) if unknown == "psi_wall" else high
     reached = neighbour(below, Closure(unknown, brentq(excess, low, high, xtol=1e-13, rtol=1e-13)))
-    if unknown == "tau" and reached.psi_wall_by_tau <= 0:
+    if reached.tau <= 0 or (unknown == "tau" and reached.psi_wall_by_tau <= 0):
         return None
     return law.friction_angle(delta, reached.psi_wall)
 
@@ -218,9 +218,13 @@ def neutral_curve(geometry: Geometry, half_angle: float, step: float) -> Neutral
 
     Raises
     ------
+    InvalidParameterError
+        If the step is not a positive number.
     NoNeutralPointError
         If not even the smooth wall has a neutral delta.
     """
+    if not (is_real(step) and 0 < step < np.inf):
+        raise InvalidParameterError(f"step = {step!r} must be a positive number, in radians")
     phi, delta = [0.0], [neutral_delta(geometry, half_angle, 0.0)]
     current, slope = step, 0.0
     while current > _END_TOLERANCE:
@@ -254,8 +258,15 @@ def stable_area(curve: NeutralCurve, deltas: ArrayLike, tangency: ArrayLike) -> 
     ``deltas`` and ``tangency`` trace the tangency from the end of the neutral curve to the largest
     delta considered, which closes the domain together with phi = 0. Where the tangency is NaN not
     even the smooth wall belongs to the domain.
+
+    Raises
+    ------
+    InvalidParameterError
+        If the tangency is NaN everywhere.
     """
     known = np.isfinite(np.asarray(tangency, dtype=float))
+    if not known.any():
+        raise InvalidParameterError("tangency is NaN at every delta: there is no stable domain")
     delta = np.asarray(deltas, dtype=float)[known]
     phi = np.asarray(tangency, dtype=float)[known]
     x = np.concatenate([curve.delta, delta, delta[-1:], curve.delta[:1]])

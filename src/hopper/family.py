@@ -16,7 +16,7 @@ from typing import Literal
 import numpy as np
 from scipy.optimize import brentq
 
-from hopper.errors import NoRadialSolutionError
+from hopper.errors import ConvergenceError, NoRadialSolutionError
 from hopper.mass_flow import limiting_wall_angle
 from hopper.problem import Hopper
 from hopper.radial_collocation import (
@@ -302,14 +302,17 @@ def _at_wall_angle(low: Member, high: Member, psi_wall: float) -> Member:
     member = newton(low.hopper, low.grid, closure, guess)
     if member is not None and low.tau <= member.tau <= high.tau:
         return refine(member)
+
     # Near the fold Newton in psi_w can slip to the other branch; tau cannot.
-    tau = brentq(
-        lambda t: neighbour(low, Closure("tau", t)).psi_wall - psi_wall,
-        low.tau,
-        high.tau,
-        xtol=1e-13,
-        rtol=1e-14,
-    )
+    def excess(tau: float) -> float:
+        return neighbour(low, Closure("tau", tau)).psi_wall - psi_wall
+
+    if not excess(low.tau) * excess(high.tau) <= 0:
+        raise ConvergenceError(
+            f"radial solution not resolved at psi_w = {degrees(psi_wall):.6g} deg: psi is too close "
+            "to its singular value; lower the wall friction"
+        )
+    tau = brentq(excess, low.tau, high.tau, xtol=1e-13, rtol=1e-14)
     return neighbour(low, Closure("tau", tau))
 
 

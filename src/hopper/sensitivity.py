@@ -31,7 +31,7 @@ class KeptSensitivity:
     ----------
     distance : float
         Size of the smallest perturbation of the restricted operator that puts an eigenvalue on
-        the imaginary axis, and so the largest that leaves the verdict of stability standing.
+        the imaginary axis: every smaller one leaves the verdict of stability standing.
     frequency : float
         Im(z) at which it is attained.
     kreiss : float

@@ -159,11 +159,7 @@ def convergence_filter(
     ConvergenceError
         If nothing is kept.
     """
-    if coarse.n >= fine.n:
-        raise InvalidParameterError(
-            f"meshes in the wrong order: the coarse one has {coarse.n} nodes, the fine one "
-            f"{fine.n}; give the finer mesh first"
-        )
+    _require_finer(fine.n, coarse.n)
     if not 0 < tolerance < 1:
         raise InvalidParameterError(f"tolerance = {tolerance!r} must lie between 0 and 1")
     nearest = relative_changes(fine.eigenvalues, coarse.eigenvalues, "nearest")
@@ -219,12 +215,13 @@ def paper_abscissa(
     Raises
     ------
     InvalidParameterError
-        If a mesh is odd or too small.
+        If a mesh is odd or too small, or the meshes are in the wrong order.
     TangencyError
         If psi reaches pi/4 - delta/2.
     ConvergenceError
         If nothing is kept.
     """
+    _require_finer(n, coarse_n)
     fine = {half: _eigenvalues(solution, n, half) for half in HALVES}
     coarse = {half: _eigenvalues(solution, coarse_n, half) for half in HALVES}
     both = _by_modulus(np.concatenate(list(fine.values())))[: int(2 * n / np.pi)]
@@ -240,6 +237,14 @@ def paper_abscissa(
         as_worded=float(both[nearest < tolerance].real.max()),
         physical=float(fine["physical"][run].real.max()),
     )
+
+
+def _require_finer(n: int, coarse_n: int) -> None:
+    if coarse_n >= n:
+        raise InvalidParameterError(
+            f"meshes in the wrong order: the coarse one has {coarse_n} nodes, the fine one {n}; "
+            "give the finer mesh first"
+        )
 
 
 def _eigenvalues(solution: RadialSolution, n: int, half: Half) -> Complex:

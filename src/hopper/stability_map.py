@@ -12,7 +12,7 @@ from hopper.errors import (
     TangencyError,
 )
 from hopper.family import friction_limit_from
-from hopper.problem import Hopper
+from hopper.problem import Hopper, require_angle
 from hopper.radial import physical_member, solution_of
 from hopper.radial_collocation import Member
 from hopper.stability import Stability, stability
@@ -63,14 +63,18 @@ def sweep_friction(hopper: Hopper, friction_angles: ArrayLike) -> Sweep:
     angles = np.asarray(friction_angles, dtype=float)
     if np.any(np.diff(angles) <= 0):
         raise InvalidParameterError("friction_angles must increase: sort and remove repeated ones")
+    for angle in angles:
+        require_angle("friction_angle", angle, zero_allowed=True)
     region = np.full(angles.size, _NO_SOLUTION, dtype=np.int8)
     region[angles > hopper.material.largest_friction_angle(hopper.delta)] = _NO_WALL
     values = np.full((4, angles.size), np.nan)
     last: Member | None = None
     for i in np.flatnonzero(region == _NO_SOLUTION):
+        rest = (np.arange(angles.size) >= i) & (region == _NO_SOLUTION)
         try:
             member = physical_member(hopper, float(angles[i]), last)
             if member is None:
+                region[rest & (angles <= _limit(last))] = _NOT_CONVERGED
                 break
             last = member
             if member.tau <= 0:
@@ -80,15 +84,22 @@ def sweep_friction(hopper: Hopper, friction_angles: ArrayLike) -> Sweep:
         except ConvergenceError:
             region[i] = _NOT_CONVERGED
         except TangencyError:
-            assert member is not None
-            largest = friction_limit_from(member).friction_angle
-            tangent = (np.arange(angles.size) >= i) & (region == _NO_SOLUTION)
-            region[tangent & (angles <= largest)] = _TANGENT
+            region[rest & (angles <= _limit(last))] = _TANGENT
             break
         else:
             region[i] = 0 if result.stable else 1
             values[:, i] = _numbers(result)
     return Sweep(region, *values)
+
+
+def _limit(member: Member | None) -> float:
+    """Return the largest friction angle with a solution, that of ``member`` where unresolved."""
+    if member is None:
+        return -np.inf
+    try:
+        return friction_limit_from(member).friction_angle
+    except ConvergenceError:
+        return solution_of(member).friction_angle
 
 
 def _numbers(result: Stability) -> tuple[float, float, float, float]:

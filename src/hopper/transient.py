@@ -159,13 +159,21 @@ def modal_matrix(basis: ModalBasis) -> Array:
 
 
 def condition_number(bases: Sequence[ModalBasis]) -> float:
-    """Return kappa(V) of the modes of one or both parities together."""
+    """Return kappa(V) of the modes of one or both parities together.
+
+    Raises
+    ------
+    InvalidParameterError
+        If no basis is given.
+    """
+    _require_modes(bases)
     values = [np.linalg.svd(basis.factor, compute_uv=False) for basis in bases]
     return float(max(v[0] for v in values) / min(v[-1] for v in values))
 
 
 def abscissa(bases: Sequence[ModalBasis]) -> float:
-    """Return the largest real part among the modes of one or both parities."""
+    """Return the largest real part among the modes of one or both parities, as above."""
+    _require_modes(bases)
     return max(basis.abscissa for basis in bases)
 
 
@@ -178,12 +186,16 @@ def propagator_norm(bases: Sequence[ModalBasis], elapsed: ArrayLike) -> Array:
         If a time is negative or not finite, or no basis is given.
     """
     times = np.asarray(elapsed, dtype=float)
-    if not bases:
-        raise InvalidParameterError("no modes: give the basis of at least one parity")
+    _require_modes(bases)
     if not (np.isfinite(times).all() and np.all(times >= 0)):
         raise InvalidParameterError("elapsed times must be finite and not negative: elapsed = -t")
     norms = [np.fromiter(_norms(basis, times.ravel()), float, times.size) for basis in bases]
     return np.max(norms, axis=0).reshape(times.shape)
+
+
+def _require_modes(bases: Sequence[ModalBasis]) -> None:
+    if not bases:
+        raise InvalidParameterError("no modes: give the basis of at least one parity")
 
 
 def _norms(basis: ModalBasis, times: Array) -> Iterator[float]:
