@@ -309,8 +309,8 @@ def _at_wall_angle(low: Member, high: Member, psi_wall: float) -> Member:
 
     if not excess(low.tau) * excess(high.tau) <= 0:
         raise ConvergenceError(
-            f"radial solution not resolved at psi_w = {degrees(psi_wall):.6g} deg: psi is too close "
-            "to its singular value; lower the wall friction"
+            f"radial solution not resolved at psi_w = {degrees(psi_wall):.6g} deg: psi is too "
+            "close to its singular value; lower the wall friction"
         )
     tau = brentq(excess, low.tau, high.tau, xtol=1e-13, rtol=1e-14)
     return neighbour(low, Closure("tau", tau))
