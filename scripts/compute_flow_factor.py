@@ -11,7 +11,7 @@ from hopper.errors import NoRadialSolutionError
 from hopper.flow_factor import flow_factor
 from hopper.problem import Hopper, as_geometry
 from hopper.radial import solve_radial
-from support import artifacts, jobs
+from support import artifacts, fields, jobs
 
 
 def compute_flow_factor(
@@ -24,11 +24,7 @@ def compute_flow_factor(
 ) -> None:
     """Compute flow factors at the chart's points, and along a curve for each of its hoppers."""
     published = pd.read_csv(chart)
-    grid = np.arange(
-        friction_angles_deg["start"],
-        friction_angles_deg["stop"] + friction_angles_deg["step"] / 2,
-        friction_angles_deg["step"],
-    )
+    grid = fields.steps(**friction_angles_deg)
     hoppers = published[["geometry", "delta_deg", "theta_deg"]].drop_duplicates()
     # NaN beyond the largest friction that has a solution: the curve ends there.
     curves = np.full((len(hoppers), grid.size), np.nan)

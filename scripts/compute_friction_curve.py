@@ -29,7 +29,7 @@ def compute_friction_curve(
     check: dict[str, Any],
 ) -> None:
     """Sweep mu for every delta, and check a few points of each curve by the paper's algorithm."""
-    friction = np.linspace(0, mu["stop"], mu["points"])
+    friction = fields.axis(0, **mu)
     sweeps, ends, checks = [], [], []
     for delta in deltas_deg:
         hopper = hoppers.mohr_coulomb(geometry, delta, half_angle_deg)

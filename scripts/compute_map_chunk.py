@@ -1,15 +1,13 @@
 """Some rows of a stability map: every n-th delta, all wall friction angles."""
 
 import logging
-from math import radians
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from hopper.problem import Hopper, as_geometry
 from hopper.stability_map import sweep_friction
-from support import artifacts, fields, jobs, maps
+from support import artifacts, fields, hoppers, jobs, maps
 
 
 def compute_map_chunk(
@@ -30,7 +28,7 @@ def compute_map_chunk(
     report = jobs.progress(logging.getLogger(), "rows")
     sweeps = []
     for done, delta in enumerate(deltas, start=1):
-        hopper = Hopper(as_geometry(geometry), radians(delta), radians(half_angle_deg))
+        hopper = hoppers.mohr_coulomb(geometry, delta, half_angle_deg)
         sweeps.append(sweep_friction(hopper, np.radians(phis)))
         report(done, deltas.size)
     artifacts.write(

@@ -27,7 +27,7 @@ def compute_pseudospectrum(
 ) -> None:
     """Compute the grid for the full interval (paper mode) or for the flow's parity (physical)."""
     solution = hoppers.radial_solution(**hopper)
-    x, y = _axis(**real), _axis(**imag)
+    x, y = fields.axis(**real), fields.axis(**imag)
     halves: tuple[Half, ...] = HALVES if mode == "paper" else ("physical",)
     grids, eigenvalues = [], []
     for half in halves:
@@ -66,10 +66,6 @@ def compute_pseudospectrum(
             "imag": imag,
         },
     )
-
-
-def _axis(start: float, stop: float, points: int) -> np.ndarray:
-    return np.linspace(start, stop, points)
 
 
 def _report(half: str) -> jobs.Progress:

@@ -36,8 +36,8 @@ def compute_sensitivity(
     mode: str,
     norm: Norm,
     psi_scale: float,
-    frequencies: dict[str, float],
-    elapsed: dict[str, float],
+    frequencies: dict[str, Any],
+    elapsed: dict[str, Any],
 ) -> None:
     """Measure the non-normality of M on the kept modes and of the full matrix."""
     solution = hoppers.radial_solution(**hopper)
@@ -53,8 +53,8 @@ def compute_sensitivity(
         [kept_condition_numbers(forms[half], values) for half, values in kept.items()]
     )
     measures = kept_sensitivity(bases)
-    y = np.linspace(0, frequencies["stop"], int(frequencies["points"]))
-    times = np.linspace(0, elapsed["stop"], int(elapsed["points"]))
+    y = fields.axis(0, **frequencies)
+    times = fields.axis(0, **elapsed)
     relative = propagator_norm(bases, times) * np.exp(-abscissa(bases) * times)
     logging.info(
         "%s, %s: distance to instability %.4g, largest condition %.4g, Kreiss bound %.4g <= %.4g",

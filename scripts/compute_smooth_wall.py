@@ -19,8 +19,8 @@ def compute_smooth_wall(
     modes: int,
 ) -> None:
     """Tabulate the theory over delta (Figure 4.1) and over the half angle (cone variants)."""
-    delta = _grid(**delta_deg)
-    angles = _grid(**half_angles_deg)
+    delta = fields.steps(**delta_deg)
+    angles = fields.steps(**half_angles_deg)
     variants = smooth_wall.CONE_VARIANTS
     wavenumbers = np.array(
         [
@@ -75,10 +75,6 @@ def compute_smooth_wall(
         equations="(4.3)-(4.10)",
         parameters={"delta_deg": delta_deg, "half_angles_deg": half_angles_deg, "modes": modes},
     )
-
-
-def _grid(start: float, stop: float, step: float) -> np.ndarray:
-    return np.arange(start, stop + step / 2, step)
 
 
 _GEOMETRIES: tuple[Geometry, ...] = ("wedge", "cone")

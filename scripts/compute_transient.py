@@ -22,12 +22,12 @@ def compute_transient(
     kept_in: Sequence[str],
     norms: Sequence[Norm],
     psi_scales: Sequence[float],
-    elapsed: dict[str, float],
+    elapsed: dict[str, Any],
 ) -> None:
     """Compute the norm over -t in [0, elapsed.stop] for every mode, norm and weight of psi."""
     data = artifacts.read(spectrum)
     solution = hoppers.radial_solution(**hopper)
-    times = np.linspace(0, elapsed["stop"], int(elapsed["points"]))
+    times = fields.axis(0, **elapsed)
     shape = (len(kept_in), len(norms), len(psi_scales))
     growth = np.empty((*shape, times.size))
     alpha, kappa = np.empty(shape), np.empty(shape)

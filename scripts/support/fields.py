@@ -35,6 +35,11 @@ def flag(
     )
 
 
+def steps(start: float, stop: float, step: float) -> np.ndarray:
+    """Return values from start by steps, up to stop."""
+    return np.arange(start, stop + step / 2, step)
+
+
 def axis(start: float, stop: float, points: int) -> np.ndarray:
     """Return equally spaced values."""
     return np.linspace(start, stop, points)

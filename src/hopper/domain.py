@@ -125,11 +125,7 @@ def neutral_delta(
     """
     require_angle("half_angle", half_angle)
     require_angle("friction_angle", friction_angle, zero_allowed=True)
-
-    def growth(delta: float) -> float:
-        hopper = Hopper(geometry, delta, half_angle)
-        return stability(solve_radial(hopper, friction_angle)).abscissa
-
+    growth = _growth(geometry, half_angle, friction_angle)
     delta = _secant(growth, guess) if guess is not None else None
     if delta is not None:
         return delta
@@ -141,6 +137,18 @@ def neutral_delta(
             "lower the wall friction"
         )
     return float(brentq(growth, *bracket, xtol=_TOLERANCE))
+
+
+def _growth(
+    geometry: Geometry, half_angle: float, friction_angle: float
+) -> Callable[[float], float]:
+    """Return the spectral abscissa as a function of delta."""
+
+    def growth(delta: float) -> float:
+        hopper = Hopper(geometry, delta, half_angle)
+        return stability(solve_radial(hopper, friction_angle)).abscissa
+
+    return growth
 
 
 def _secant(growth: Callable[[float], float], guess: float) -> float | None:
@@ -228,10 +236,7 @@ def neutral_curve(geometry: Geometry, half_angle: float, step: float) -> Neutral
     phi, delta = [0.0], [neutral_delta(geometry, half_angle, 0.0)]
     current, slope = step, 0.0
     while current > _END_TOLERANCE:
-
-        def growth(value: float, friction: float = phi[-1] + current) -> float:
-            return stability(solve_radial(Hopper(geometry, value, half_angle), friction)).abscissa
-
+        growth = _growth(geometry, half_angle, phi[-1] + current)
         found = _secant(growth, delta[-1] + slope * current)
         if found is None:
             current /= 2

@@ -3,9 +3,9 @@
 # =================================================================================================
 
 
-def hopper_of(wildcards):
-    """Parameters of the hopper whose spectrum a figure shows."""
-    case = config["spectra"][wildcards.figure]
+def hopper_of(spectrum):
+    """Parameters of the hopper of one of the discrete spectra, by its name."""
+    case = config["spectra"][spectrum]
     return {name: case[name] for name in ["delta_deg", "half_angle_deg", "mu"]}
 
 
@@ -20,12 +20,8 @@ def mesh(which):
 
 
 def spectrum_case(spectrum, geometry):
-    """Hopper of one of the discrete spectra, by its name in the configuration."""
-    case = config["spectra"][spectrum]
-    return {
-        "geometry": geometry,
-        **{name: case[name] for name in ["delta_deg", "half_angle_deg", "mu"]},
-    }
+    """The same with its geometry."""
+    return {"geometry": geometry, **hopper_of(spectrum)}
 
 
 def transient(key):

@@ -20,9 +20,9 @@ rule compute_spectrum:
     threads: 1
     params:
         geometry="{geometry}",
-        delta_deg=lambda wildcards: hopper_of(wildcards)["delta_deg"],
-        half_angle_deg=lambda wildcards: hopper_of(wildcards)["half_angle_deg"],
-        mu=lambda wildcards: hopper_of(wildcards)["mu"],
+        delta_deg=lambda wildcards: hopper_of(wildcards.figure)["delta_deg"],
+        half_angle_deg=lambda wildcards: hopper_of(wildcards.figure)["half_angle_deg"],
+        mu=lambda wildcards: hopper_of(wildcards.figure)["mu"],
         nodes=lambda wildcards: int(wildcards.nodes),
     script:
         "../../scripts/compute_spectrum.py"
@@ -45,9 +45,9 @@ rule filter_spectrum:
     threads: 1
     params:
         geometry="{geometry}",
-        delta_deg=lambda wildcards: hopper_of(wildcards)["delta_deg"],
-        half_angle_deg=lambda wildcards: hopper_of(wildcards)["half_angle_deg"],
-        mu=lambda wildcards: hopper_of(wildcards)["mu"],
+        delta_deg=lambda wildcards: hopper_of(wildcards.figure)["delta_deg"],
+        half_angle_deg=lambda wildcards: hopper_of(wildcards.figure)["half_angle_deg"],
+        mu=lambda wildcards: hopper_of(wildcards.figure)["mu"],
         nodes=lambda wildcards: config["spectra"][wildcards.figure]["nodes"],
         coarse_nodes=lambda wildcards: config["spectra"][wildcards.figure]["coarse_nodes"],
         tolerance=lambda wildcards: config["spectra"][wildcards.figure]["tolerance"],
@@ -70,8 +70,8 @@ rule compute_exact_spectrum:
     threads: 1
     params:
         geometry="{geometry}",
-        delta_deg=lambda wildcards: hopper_of(wildcards)["delta_deg"],
-        half_angle_deg=lambda wildcards: hopper_of(wildcards)["half_angle_deg"],
+        delta_deg=lambda wildcards: hopper_of(wildcards.figure)["delta_deg"],
+        half_angle_deg=lambda wildcards: hopper_of(wildcards.figure)["half_angle_deg"],
         modes=lambda wildcards: config["spectra"][wildcards.figure]["exact_modes"],
     script:
         "../../scripts/compute_exact_spectrum.py"
@@ -92,9 +92,9 @@ rule compute_stability:
     threads: 1
     params:
         geometry="{geometry}",
-        delta_deg=lambda wildcards: hopper_of(wildcards)["delta_deg"],
-        half_angle_deg=lambda wildcards: hopper_of(wildcards)["half_angle_deg"],
-        mu=lambda wildcards: hopper_of(wildcards)["mu"],
+        delta_deg=lambda wildcards: hopper_of(wildcards.figure)["delta_deg"],
+        half_angle_deg=lambda wildcards: hopper_of(wildcards.figure)["half_angle_deg"],
+        mu=lambda wildcards: hopper_of(wildcards.figure)["mu"],
     script:
         "../../scripts/compute_stability.py"
 
