@@ -55,4 +55,5 @@ COMPILE := uv pip compile --universal --generate-hashes --no-header --no-annotat
 lock:
 	echo 'setuptools>=80' | $(COMPILE) - -o requirements-build.lock
 	$(COMPILE) pyproject.toml --extra workflow -c requirements-build.lock -o requirements.lock
-	$(COMPILE) pyproject.toml --all-extras -c requirements.lock -o requirements-dev.lock
+	$(COMPILE) pyproject.toml --extra workflow --extra dev -c requirements.lock -o requirements-dev.lock
+	$(COMPILE) pyproject.toml --extra workflow --extra cluster -c requirements.lock -o requirements-cluster.lock
