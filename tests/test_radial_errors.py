@@ -116,14 +116,52 @@ def test_friction_beyond_an_interior_singularity():
     assert "psi reaches its singular angle inside the hopper there" in str(error)
 
 
-@pytest.mark.parametrize(("delta", "half_angle"), [(50, 45), (37, 50), (38, 46)])
-def test_interior_limit_is_right_within_its_error_estimate(delta, half_angle):
-    hopper = make("cone", delta, half_angle, VON_MISES)
+INTERIOR = [
+    make("cone", 24.8, 30),
+    make("cone", 25.4, 30),
+    make("cone", 25, 45),
+    make("cone", 50, 45, VON_MISES),
+    make("cone", 45, 45, VON_MISES),
+    make("cone", 40, 45, VON_MISES),
+]
+
+
+@pytest.mark.parametrize("hopper", INTERIOR)
+def test_interior_limit_separates_the_trajectories_of_the_witness(hopper):
     limit = friction_limit(hopper)
     assert limit.end == "interior"
-    phi = limit.friction_angle + 2 * limit.error_estimate
-    with pytest.raises(HopperError):
-        solve_radial(hopper, phi)
+    assert limit.error_estimate < 1e-9
+    parameters, wall = witness.describe(hopper), np.array([hopper.half_angle])
+    reached = []
+    for distance in (1e-3, 1e-5, 1e-7, 1e-9):
+        tau = limit.tau * (1 - distance)
+        _, psi = witness.shoot(*parameters, 1 / tau, wall, 1e-11)
+        reached.append(witness.friction_angle(parameters[0], hopper.s, psi[0]))
+    # The closer to the saddle, the closer at the wall: by a power of the distance in tau, the
+    # ratio of the saddle's rates.
+    missing = limit.friction_angle - np.array(reached)
+    assert np.all(missing > 0)
+    factors = missing[1:] / missing[:-1]
+    assert np.all(factors < 0.9)
+    assert abs(factors[2] - factors[1]) < abs(factors[1] - factors[0]) + 1e-3
+    # The slightest excess of tau drives psi into its singular angle inside the hopper.
+    with pytest.raises(AssertionError):
+        witness.shoot(*parameters, 1 / (limit.tau * (1 + 1e-9)), wall, 1e-11)
+
+
+@pytest.mark.parametrize("hopper", INTERIOR)
+def test_critical_point_is_the_same_in_every_wider_hopper(hopper):
+    wider = Hopper("cone", hopper.delta, hopper.half_angle + radians(3), hopper.material)
+    assert friction_limit(wider).tau == pytest.approx(friction_limit(hopper).tau, rel=1e-9)
+
+
+@pytest.mark.parametrize(("delta", "half_angle", "phi"), [(24.2, 30, 23), (24.6, 30, 23)])
+def test_wall_is_the_limit_where_there_is_no_critical_point(delta, half_angle, phi):
+    hopper = make("cone", delta, half_angle)
+    limit = friction_limit(hopper)
+    assert limit.end == "wall"
+    assert limit.friction_angle == pytest.approx(radians(delta), rel=1e-12)
+    assert solve_radial(hopper, radians(phi)).error_estimate < 1e-6
 
 
 @pytest.mark.parametrize(

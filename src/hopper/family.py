@@ -9,13 +9,14 @@ the family ends there.
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import pairwise
+from itertools import pairwise, takewhile
 from math import degrees, exp, log, radians
 from typing import Literal
 
 import numpy as np
 from scipy.optimize import brentq
 
+from hopper.critical_point import limiting_solution
 from hopper.errors import ConvergenceError, NoRadialSolutionError
 from hopper.mass_flow import limiting_wall_angle
 from hopper.problem import Hopper
@@ -26,7 +27,6 @@ from hopper.radial_collocation import (
     half_grid,
     newton,
     refine,
-    solve,
 )
 
 End = Literal["fold", "wall", "interior", "axis"]
@@ -36,10 +36,14 @@ _FIRST_STEP = 0.05
 _LARGEST_STEP = 0.2
 _SMALLEST_STEP = 1e-3
 _LONGEST_WALK = 300
+# Members of a walk only start what is resolved later: an error of 1e-6 is as good as rounding.
+_WALK_STEP = 1e-3
 # Radians within which a wall angle is that of the fold.
 _SAME_ANGLE = 1e-12
 # Radians below the singular angle where the family counts as ended: at the wall, inside.
 _WALL_MARGIN, _INTERIOR_MARGIN = 2e-3, 2e-2
+# Half angles, relative to the hopper's, from which its end is approached.
+_NARROWINGS = (0.5, 0.35, 0.25, 0.15, 0.1, 0.05)
 # tau theta_w beyond which the axis counts as free of stress.
 _FREE_AXIS = 300.0
 
@@ -132,7 +136,7 @@ def family_from(member: Member) -> Iterator[Member]:
         guess = member.u + step * scale * member.tangent
         by_wall = abs(direction[0]) > abs(direction[1]) / 2
         closure = Closure("psi_wall", guess[-2]) if by_wall else Closure("tau", guess[-1])
-        following = newton(member.hopper, member.grid, closure, guess)
+        following = newton(member.hopper, member.grid, closure, guess, _WALK_STEP)
         if following is None or following.error > step or following.tau <= member.tau:
             step /= 2
             continue
@@ -158,7 +162,7 @@ def _regrid(member: Member) -> Member:
     grid = half_grid(_SIZE, half_angle, 0.5 * round(2 * max(0.0, layer)))
     if grid is member.grid:
         return member
-    return newton(member.hopper, grid, member.closure, member.on(grid)) or member
+    return newton(member.hopper, grid, member.closure, member.on(grid), _WALK_STEP) or member
 
 
 def _past_fold(member: Member) -> bool:
@@ -196,31 +200,46 @@ def friction_limit_from(member: Member) -> FrictionLimit:
         last = following
     law = hopper.material
     if last.psi_wall > law.singular_angle(hopper.delta) - _WALL_MARGIN:
-        singular, phi = law.singular_angle(hopper.delta), law.largest_friction_angle(hopper.delta)
-        return FrictionLimit(phi, "wall", last.tau, singular, error_estimate=0.0)
+        return _wall_end(last)
     reached = law.friction_angle(hopper.delta, last.psi_wall)
     if last.tau * hopper.half_angle > _FREE_AXIS:
         wall = limiting_wall_angle(hopper)
         phi = law.friction_angle(hopper.delta, wall)
         return FrictionLimit(phi, "axis", last.tau, wall, abs(phi - reached))
-    return _interior_end(last)
+    return _singular_end(last)
 
 
-def _interior_end(member: Member) -> FrictionLimit:
-    """Follow psi_w as far as collocation resolves it, towards a singular angle inside."""
-    hopper, step = member.hopper, _LARGEST_STEP
-    while step > _SMALLEST_STEP:
-        closure = Closure("psi_wall", member.psi_wall + step)
-        following = solve(hopper, closure, member) or solve(hopper, closure)
-        if following is None:
-            step /= 2
-        else:
-            member = following
-    law = hopper.material
-    phi, above = (
-        law.friction_angle(hopper.delta, member.psi_wall + shift) for shift in (0.0, 2 * step)
+def _singular_end(member: Member) -> FrictionLimit:
+    """Return the limit where psi becomes singular inside the hopper, or at the wall after all."""
+    hopper, law = member.hopper, member.hopper.material
+    singular = law.singular_angle(hopper.delta)
+    for narrowing in _NARROWINGS:
+        # Narrow enough, psi becomes singular at the wall: from there to the critical point.
+        half_angle = narrowing * hopper.half_angle
+        narrow = Hopper(hopper.geometry, hopper.delta, half_angle, law)
+        *_, start = takewhile(lambda near: near.psi_wall < singular, family(narrow))
+        if start.psi_wall < singular - 2 * _INTERIOR_MARGIN:
+            continue
+        try:
+            end = limiting_solution(hopper, start)
+        except ConvergenceError:
+            continue
+        if end is None:
+            return _wall_end(member)
+        phi = law.friction_angle(hopper.delta, end.psi_wall)
+        lower = law.friction_angle(hopper.delta, end.psi_wall - end.error_estimate)
+        return FrictionLimit(phi, "interior", end.tau, end.psi_wall, phi - lower)
+    raise ConvergenceError(
+        f"largest wall friction not resolved at delta = {degrees(hopper.delta):.6g} deg, "
+        f"half_angle = {degrees(hopper.half_angle):.6g} deg: psi becomes singular near the axis; "
+        "lower half_angle"
     )
-    return FrictionLimit(phi, "interior", member.tau, member.psi_wall, above - phi)
+
+
+def _wall_end(member: Member) -> FrictionLimit:
+    law, delta = member.hopper.material, member.hopper.delta
+    phi = law.largest_friction_angle(delta)
+    return FrictionLimit(phi, "wall", member.tau, law.singular_angle(delta), error_estimate=0.0)
 
 
 def neighbour(member: Member, closure: Closure) -> Member:

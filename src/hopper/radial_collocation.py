@@ -211,20 +211,32 @@ def _terms(psi: Array, cot: Array, dlog: Array, dpsi: Array, down: Array, out: A
 
 def slopes(hopper: Hopper, theta: Array, sigma: Array, psi: Array) -> tuple[Array, Array]:
     """Return d log(sigma)/d theta and d psi/d theta that the equations prescribe, shape (n,)."""
+    determinant, dlog, dpsi = flow(hopper, theta, sigma, psi)
+    dlog, dpsi = dlog / determinant, dpsi / determinant
     near = np.abs(theta) < _NEAR_AXIS
+    if near.any():
+        # There cot(theta) sin(2 psi) is 2 psi' to second order, and its rounding is not.
+        flat = np.zeros(int(near.sum()))
+        light = np.cos(theta[near]) / sigma[near]
+        terms = _terms(psi[near], flat, flat, flat, light, flat)
+        dpsi[near] = _equations(hopper)[0] @ terms / (2 * hopper.s * (1 + hopper.curvature))
+    return dlog, dpsi
+
+
+def flow(hopper: Hopper, theta: Array, sigma: Array, psi: Array) -> tuple[Array, Array, Array]:
+    """Return the common denominator of the slopes and the two numerators, each of shape (n,).
+
+    As derivatives of (theta, log sigma, psi) they are regular where psi is singular.
+    """
     cot = np.divide(1.0, np.tan(theta), out=np.zeros_like(theta), where=theta != 0)
     flat = np.zeros_like(theta)
     terms = _terms(psi, cot, flat, flat, np.cos(theta) / sigma, np.sin(theta) / sigma)
     radial, angular, _, _, radial_l, radial_psi, angular_l, angular_psi = _equations(hopper) @ terms
-    determinant = radial_l * angular_psi - radial_psi * angular_l
-    dlog = (radial_psi * angular - angular_psi * radial) / determinant
-    dpsi = (angular_l * radial - radial_l * angular) / determinant
-    if near.any():
-        # There cot(theta) sin(2 psi) is 2 psi' to second order, and its rounding is not.
-        terms[_TERMS.index("sin cot")] = 0.0
-        smooth = _equations(hopper)[0] @ terms[:, near]
-        dpsi[near] = smooth / (2 * hopper.s * (1 + hopper.curvature))
-    return dlog, dpsi
+    return (
+        radial_l * angular_psi - radial_psi * angular_l,
+        radial_psi * angular - angular_psi * radial,
+        angular_l * radial - radial_l * angular,
+    )
 
 
 def _residual_and_jacobian(hopper: Hopper, grid: Grid, u: Array) -> tuple[Array, Array]:
@@ -280,10 +292,13 @@ def _size(step: Array, u: Array) -> float:
     return max(float(np.abs(step[:-1]).max()), float(abs(step[-1])) / max(abs(u[-1]), 1.0))
 
 
-def newton(hopper: Hopper, grid: Grid, closure: Closure, u: Array) -> Member | None:
+def newton(
+    hopper: Hopper, grid: Grid, closure: Closure, u: Array, last_step: float = 1e-7
+) -> Member | None:
     """Solve on one grid from the start ``u``; None where the iteration fails.
 
-    The member's ``error`` is the size of the first step.
+    Convergence is quadratic: after a step of size ``last_step`` the error is of the order of its
+    square, by default of rounding size. The member's ``error`` is the size of the first step.
     """
     first = size = 0.0
     with np.errstate(over="ignore", invalid="ignore"):
@@ -296,9 +311,8 @@ def newton(hopper: Hopper, grid: Grid, closure: Closure, u: Array) -> Member | N
                 return None
             if iteration == 0:
                 first = size
-            # Quadratic convergence: after a step of 1e-7 the error is of rounding size. Steps
-            # that no longer shrink are rounding themselves.
-            if size < 1e-7 or (size < 1e-6 and size > previous / 2):
+            # Small steps that no longer shrink are rounding themselves.
+            if size < last_step or (size < 1e-6 and size > previous / 2):
                 return Member(hopper, grid, closure, u, tangent, first)
     return None
 
@@ -354,9 +368,12 @@ def solve(hopper: Hopper, closure: Closure, start: Member | None = None) -> Memb
 
     Returns None where that does not converge.
     """
-    for size in _SIZES[:3]:
+    for size in _coarse_sizes(start):
         grid = half_grid(size, hopper.half_angle)
-        u = crude_start(hopper, grid, closure.value) if start is None else start.on(grid)
+        if start is None:
+            u = crude_start(hopper, grid, closure.value)
+        else:
+            u = _predicted(start, closure).on(grid)
         member = newton(hopper, grid, closure, u)
         if member is not None:
             try:
@@ -365,3 +382,18 @@ def solve(hopper: Hopper, closure: Closure, start: Member | None = None) -> Memb
                 # Too few points can have solutions of their own.
                 continue
     return None
+
+
+def _coarse_sizes(start: Member | None) -> tuple[int, ...]:
+    """Return the grids to begin with: a neighbour needed the one after the first of them."""
+    if start is None or start.grid.size not in _SIZES:
+        return _SIZES[:3]
+    first = max(0, _SIZES.index(start.grid.size) - 1)
+    return _SIZES[first : first + 3]
+
+
+def _predicted(start: Member, closure: Closure) -> Member:
+    """Move along the tangent to where the closure holds to first order."""
+    column = -2 if closure.unknown == "psi_wall" else -1
+    step = (closure.value - start.u[column]) / start.tangent[column]
+    return replace(start, u=start.u + step * start.tangent) if isfinite(step) else start
