@@ -54,7 +54,14 @@ def asymptotic_line(solution: RadialSolution) -> AsymptoticLine:
         weights = chebyshev.clenshaw_curtis_weights(2 * size)[size:]
         travel_time = float(weights @ time)
         abscissa = float(weights @ growth) / travel_time
-        tail = max(_tail(growth - abscissa * time), abs(abscissa) * _tail(time)) / travel_time
+        last = chebyshev.half_coefficients(np.stack([growth, time], axis=1), "even")[-3:]
+        tail = (
+            max(
+                float(np.abs(last[:, 0] - abscissa * last[:, 1]).max()),
+                abs(abscissa) * float(np.abs(last[:, 1]).max()),
+            )
+            / travel_time
+        )
         if tail < _TOLERANCE * max(1.0, abs(abscissa)):
             break
     error = tail + _sensitivity(growth, time) * solution.error_estimate
@@ -77,11 +84,6 @@ def _integrands(solution: RadialSolution, size: int) -> tuple[Array, Array]:
     speed = hopper.s + np.cos(2 * at.psi)
     growth = (p * cos(hopper.delta) + q * np.sin(2 * at.psi)) / speed
     return growth, cos(hopper.delta) / speed
-
-
-def _tail(values: Array) -> float:
-    """Size of the last Chebyshev coefficients of an even function on the half grid."""
-    return float(np.abs(chebyshev.half_coefficients(values, "even")[-3:]).max())
 
 
 def _sensitivity(growth: Array, time: Array) -> float:

@@ -10,6 +10,7 @@ depend on it, norms do.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 from math import pi
 
 import numpy as np
@@ -21,6 +22,13 @@ from hopper.errors import InvalidParameterError, TangencyError
 from hopper.radial import RadialSolution
 from hopper.radial_collocation import half_grid
 from hopper.yield_conditions import MOHR_COULOMB
+
+# Half grids that modes and line begin with. At these sizes numpy's overhead is most of the cost, so
+# their coefficients are evaluated together.
+_FIRST_GRIDS = (16, 24, 36)
+# Largest psi at the nodes, and at those of a grid four times as fine, relative to the limit, from
+# which a closer look at the maximum is due: they miss it to second order in their distance.
+_NEAR, _NEAR_ON_FINER = 0.98, 0.998
 
 
 @dataclass(frozen=True)
@@ -74,10 +82,26 @@ def coefficients(
 def coefficients_on_half_grid(
     solution: RadialSolution, m: int, psi_scale: float = 1.0
 ) -> Coefficients:
-    """Return the coefficients at the ``m`` positive Chebyshev points, as :func:`coefficients`."""
+    """Return the coefficients at the ``m`` positive Chebyshev points, as :func:`coefficients`.
+
+    The arrays are read-only.
+    """
+    sizes = _FIRST_GRIDS if m in _FIRST_GRIDS else (m,)
+    return _on_half_grids(solution, sizes, psi_scale)[sizes.index(m)]
+
+
+@lru_cache(maxsize=4)
+def _on_half_grids(
+    solution: RadialSolution, sizes: tuple[int, ...], psi_scale: float
+) -> tuple[Coefficients, ...]:
     _require_linear(solution, psi_scale)
-    theta = half_grid(m, solution.hopper.half_angle).theta
-    return _coefficients(solution, theta, solution.fields_on_half_grid(m), psi_scale)
+    grids = [half_grid(m, solution.hopper.half_angle) for m in sizes]
+    theta = np.concatenate([grid.theta for grid in grids])
+    at = vars(_coefficients(solution, theta, solution.fields_on(grids), psi_scale))
+    for array in at.values():
+        array.flags.writeable = False
+    parts = [slice(stop - m, stop) for m, stop in zip(sizes, np.cumsum(sizes), strict=True)]
+    return tuple(Coefficients(**{name: at[name][part] for name in at}) for part in parts)
 
 
 def _require_linear(solution: RadialSolution, psi_scale: float) -> None:
@@ -120,6 +144,7 @@ def _coefficients(
     )
 
 
+@lru_cache(maxsize=8)
 def require_no_tangency(solution: RadialSolution) -> None:
     """Check that psi stays below pi/4 - delta/2.
 
@@ -129,8 +154,10 @@ def require_no_tangency(solution: RadialSolution) -> None:
         If it does not.
     """
     limit = pi / 4 - solution.hopper.delta / 2
-    # The nodes see the maximum to second order in their distance; look closer only near the limit.
-    if solution.psi.max() < 0.98 * limit:
+    if solution.psi.max() < _NEAR * limit:
+        return
+    finer = half_grid(4 * solution.theta.size, solution.hopper.half_angle)
+    if solution.fields_on([finer])[1].max() < _NEAR_ON_FINER * limit:
         return
     theta, largest = solution.psi_maximum()
     if largest >= limit:

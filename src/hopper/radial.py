@@ -1,5 +1,6 @@
 """Radial (similarity) stress fields T = r T(theta) for a given wall friction, paper section 3."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import degrees
 from typing import Literal
@@ -17,12 +18,12 @@ from hopper.errors import (
     NoRadialSolutionError,
 )
 from hopper.problem import Hopper, as_angles, is_real, require_angle
-from hopper.radial_collocation import Closure, Member, half_grid, normal_weight, slopes, solve
+from hopper.radial_collocation import Closure, Grid, Member, normal_weight, slopes, solve
 
 Branch = Literal["physical", "second"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RadialSolution:
     """A radial stress field with its error estimate.
 
@@ -101,11 +102,13 @@ class RadialSolution:
         psi = self.member.grid.interpolation(theta, "odd") @ self.psi
         return self._with_slopes(theta, log_ratio, psi)
 
-    def fields_on_half_grid(self, m: int) -> tuple[Array, Array, Array, Array]:
-        """Return :meth:`fields` at the ``m`` positive Chebyshev points, each of shape (m,)."""
-        grid = half_grid(m, self.hopper.half_angle)
-        u = self.member.on(grid)
-        return self._with_slopes(grid.theta, u[:m], u[m:-1])
+    def fields_on(self, grids: Sequence[Grid]) -> tuple[Array, Array, Array, Array]:
+        """Return :meth:`fields` at the points of half grids, one after the other, shape (n,)."""
+        on = [(grid.size, self.member.on(grid)) for grid in grids]
+        theta = np.concatenate([grid.theta for grid in grids])
+        log_ratio = np.concatenate([u[:m] for m, u in on])
+        psi = np.concatenate([u[m:-1] for m, u in on])
+        return self._with_slopes(theta, log_ratio, psi)
 
     def _with_slopes(
         self, theta: Array, log_ratio: Array, psi: Array
