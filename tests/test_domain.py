@@ -153,7 +153,7 @@ def test_neutral_curve_ends_at_the_tangency(geometry, half_angle):
     found = curve(geometry, half_angle)
     hopper = Hopper(geometry, float(found.delta[-1]), radians(half_angle))
     gap = tangent(hopper) - found.friction_angle[-1]
-    assert 0 <= gap < radians(1e-4)
+    assert 0 <= gap < radians(1e-6)
     # Beyond its end no delta is neutral.
     with pytest.raises(NoNeutralPointError):
         neutral_delta(geometry, radians(half_angle), found.friction_angle[-1] + radians(1e-3))

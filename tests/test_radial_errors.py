@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from hopper.errors import (
-    HopperError,
     InvalidParameterError,
     NonPositiveStressError,
     NoRadialSolutionError,
@@ -131,12 +130,12 @@ def test_interior_limit_separates_the_trajectories_of_the_witness(hopper):
     limit = friction_limit(hopper)
     assert limit.end == "interior"
     assert limit.error_estimate < 1e-9
-    parameters, wall = witness.describe(hopper), np.array([hopper.half_angle])
+    (model, k, s), wall = witness.describe(hopper), np.array([hopper.half_angle])
     reached = []
     for distance in (1e-3, 1e-5, 1e-7, 1e-9):
         tau = limit.tau * (1 - distance)
-        _, psi = witness.shoot(*parameters, 1 / tau, wall, 1e-11)
-        reached.append(witness.friction_angle(parameters[0], hopper.s, psi[0]))
+        _, psi = witness.shoot(model, k, s, 1 / tau, wall, 1e-11)
+        reached.append(witness.friction_angle(model, s, psi[0]))
     # The closer to the saddle, the closer at the wall: by a power of the distance in tau, the
     # ratio of the saddle's rates.
     missing = limit.friction_angle - np.array(reached)
@@ -146,7 +145,7 @@ def test_interior_limit_separates_the_trajectories_of_the_witness(hopper):
     assert abs(factors[2] - factors[1]) < abs(factors[1] - factors[0]) + 1e-3
     # The slightest excess of tau drives psi into its singular angle inside the hopper.
     with pytest.raises(AssertionError):
-        witness.shoot(*parameters, 1 / (limit.tau * (1 + 1e-9)), wall, 1e-11)
+        witness.shoot(model, k, s, 1 / (limit.tau * (1 + 1e-9)), wall, 1e-11)
 
 
 @pytest.mark.parametrize("hopper", INTERIOR)

@@ -57,16 +57,14 @@ def limiting_solution(hopper: Hopper, start: Member) -> LimitingSolution | None:
     ConvergenceError
         If the critical point is not resolved to 1e-8.
     """
-    walls = []
-    for size in _SIZES:
-        point = critical_point(hopper, start, size)
-        if point is None:
-            return None
-        walls.append(_psi_wall(hopper, point))
-    error = abs(walls[1] - walls[0]) + 10 * _RELATIVE
+    coarse, fine = (critical_point(hopper, start, size) for size in _SIZES)
+    if coarse is None or fine is None:
+        return None
+    psi_wall = _psi_wall(hopper, fine)
+    error = abs(psi_wall - _psi_wall(hopper, coarse)) + 10 * _RELATIVE
     if error > _ACCEPTABLE:
         raise ConvergenceError(f"end of the family not resolved: psi at the wall to {error:.1e}")
-    return LimitingSolution(walls[1], point.tau, error)
+    return LimitingSolution(psi_wall, fine.tau, error)
 
 
 def critical_point(hopper: Hopper, start: Member, size: int) -> CriticalPoint | None:

@@ -31,7 +31,7 @@ from hopper.stability import stability
 
 # Root finding, in radians: well below 1e-6 degrees.
 _TOLERANCE = 1e-10
-_END_TOLERANCE = 1e-8
+_END_TOLERANCE = 3e-9
 _SECANT_STEPS = 12
 _PROBE = 1e-6
 _SCAN = np.radians(np.arange(12.0, 76.0, 4.0))
@@ -152,19 +152,23 @@ def _growth(
 
 
 def _secant(growth: Callable[[float], float], guess: float) -> float | None:
-    """Converge from a guess to a zero, or give up."""
-    try:
-        before, at_before = guess - _PROBE, growth(guess - _PROBE)
-        here, at_here = guess, growth(guess)
-        for _ in range(_SECANT_STEPS):
-            slope = (at_here - at_before) / (here - before)
-            following = here - at_here / slope
-            if abs(following - here) < _TOLERANCE:
-                return following
-            before, at_before = here, at_here
-            here, at_here = following, growth(following)
-    except (HopperError, ZeroDivisionError):
-        return None
+    """Converge from a guess to a zero, or give up.
+
+    The second point lies on either side: close to the tangency only one of them has a verdict.
+    """
+    for side in (-_PROBE, _PROBE):
+        try:
+            before, at_before = guess + side, growth(guess + side)
+            here, at_here = guess, growth(guess)
+            for _ in range(_SECANT_STEPS):
+                slope = (at_here - at_before) / (here - before)
+                following = here - at_here / slope
+                if abs(following - here) < _TOLERANCE:
+                    return following
+                before, at_before = here, at_here
+                here, at_here = following, growth(following)
+        except (HopperError, ZeroDivisionError):
+            continue
     return None
 
 
@@ -222,7 +226,7 @@ def neutral_curve(geometry: Geometry, half_angle: float, step: float) -> Neutral
     half_angle : float
         theta_w, radians.
     step : float
-        Largest step in phi, radians; steps shrink towards the end, which is found to 1e-8.
+        Largest step in phi, radians; steps shrink towards the end, which is found to 1e-6 degrees.
 
     Raises
     ------
