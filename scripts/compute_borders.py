@@ -9,8 +9,9 @@ import xarray as xr
 
 from hopper.domain import borders, neutral_curve
 from hopper.family import End
-from hopper.problem import as_geometry
-from support import artifacts, fields, jobs
+from hopper.problem import Hopper, as_geometry
+from hopper.radial import solve_radial
+from support import artifacts, fields, jobs, paper_checks
 
 
 def compute_borders(
@@ -21,8 +22,12 @@ def compute_borders(
     half_angle_deg: float,
     neutral_step_deg: float,
     delta_deg: dict[str, Any],
+    check: dict[str, Any],
 ) -> None:
-    """Trace the neutral curve and the borders over delta; each point is a root of an equation."""
+    """Trace the neutral curve and the borders over delta; each point is a root of an equation.
+
+    A few points of the neutral curve, its end left out, are checked by the paper's algorithm.
+    """
     shape, half_angle = as_geometry(geometry), radians(half_angle_deg)
     neutral = neutral_curve(shape, half_angle, radians(neutral_step_deg))
     logging.info(
@@ -30,6 +35,12 @@ def compute_borders(
         geometry, half_angle_deg, np.degrees(neutral.delta[0]),
         np.degrees(neutral.friction_angle[-1]),
     )  # fmt: skip
+    points, meshes = check["points"], {name: check[name] for name in check if name != "points"}
+    checked = np.linspace(0, neutral.delta.size - 1, points + 1).astype(int)[:-1]
+    solutions = [
+        solve_radial(Hopper(shape, neutral.delta[i], half_angle), neutral.friction_angle[i])
+        for i in checked
+    ]
     deltas = fields.axis(**delta_deg)
     found = borders(shape, half_angle, np.radians(deltas))
     ends = (*get_args(End), "none")
@@ -41,6 +52,8 @@ def compute_borders(
             "neutral_phi": fields.angle(
                 "point", np.degrees(neutral.friction_angle), "wall friction of neutral stability"
             ),
+            "check_point": fields.number("check", checked, "index of a checked neutral point"),
+            **paper_checks.check_variables("check", solutions, **meshes),
             "limit_phi": fields.angle(
                 "delta", np.degrees(found.limit), "largest wall friction with a radial solution"
             ),
@@ -72,6 +85,7 @@ def compute_borders(
             "half_angle_deg": half_angle_deg,
             "neutral_step_deg": neutral_step_deg,
             "delta_deg": delta_deg,
+            "check": check,
         },
     )
 

@@ -2,20 +2,17 @@
 
 import logging
 from collections.abc import Sequence
-from math import tan
+from math import atan, tan
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from hopper.domain import tangency_friction
-from hopper.errors import ConvergenceError
 from hopper.family import friction_limit
-from hopper.problem import Hopper
 from hopper.radial import solve_radial
-from hopper.spectrum import paper_abscissa
 from hopper.stability_map import sweep_friction
-from support import artifacts, fields, hoppers, jobs, maps
+from support import artifacts, fields, hoppers, jobs, maps, paper_checks
 
 
 def compute_friction_curve(
@@ -30,7 +27,8 @@ def compute_friction_curve(
 ) -> None:
     """Sweep mu for every delta, and check a few points of each curve by the paper's algorithm."""
     friction = fields.axis(0, **mu)
-    sweeps, ends, checks = [], [], []
+    points, meshes = check["points"], {name: check[name] for name in check if name != "points"}
+    sweeps, ends, checked, solutions = [], [], [], []
     for delta in deltas_deg:
         hopper = hoppers.mohr_coulomb(geometry, delta, half_angle_deg)
         sweeps.append(sweep_friction(hopper, np.arctan(friction)))
@@ -38,10 +36,10 @@ def compute_friction_curve(
         limit = friction_limit(hopper).friction_angle
         ends.append((np.nan if tangency is None else tan(tangency), tan(limit)))
         last = min(tan(limit if tangency is None else tangency), mu["stop"])
-        checks.append(_check(hopper, np.linspace(0, last, check["points"] + 1)[:-1], check))
+        checked.append(np.linspace(0, last, points + 1)[:-1])
+        solutions += [solve_radial(hopper, atan(value)) for value in checked[-1]]
         logging.info("%s, delta = %g deg: tangency at mu = %.6f", geometry, delta, ends[-1][0])
     over, at = ("delta", "mu"), ("delta", "check")
-    checked = np.array(checks)
     dataset = xr.Dataset(
         {
             "abscissa": fields.number(over, [s.abscissa for s in sweeps], "supremum of Re(lambda)"),
@@ -55,16 +53,8 @@ def compute_friction_curve(
             "region": maps.region(over, [s.region for s in sweeps]),
             "tangency_mu": fields.number("delta", [e[0] for e in ends], "mu at the tangency"),
             "limit_mu": fields.number("delta", [e[1] for e in ends], "largest mu with a solution"),
-            "check_mu": fields.number(at, checked[..., 0], "mu of the checked point"),
-            "check_as_worded": fields.number(
-                at, checked[..., 1], "abscissa by the paper's algorithm, both parities"
-            ),
-            "check_physical": fields.number(
-                at, checked[..., 2], "abscissa by the paper's algorithm, the flow's parity"
-            ),
-            "check_abscissa": fields.number(
-                at, checked[..., 3], "abscissa from low modes and line at the checked point"
-            ),
+            "check_mu": fields.number(at, checked, "mu of the checked point"),
+            **paper_checks.check_variables(at, solutions, np.shape(checked), **meshes),
         },
         coords={
             "delta": fields.angle("delta", list(deltas_deg), "angle of internal friction"),
@@ -85,23 +75,6 @@ def compute_friction_curve(
             "check": check,
         },
     )
-
-
-def _check(hopper: Hopper, mu: np.ndarray, check: dict[str, Any]) -> list[list[float]]:
-    """Return (mu, as worded, physical, abscissa) at the points to check, NaN if not converged."""
-    rows = []
-    abscissae = sweep_friction(hopper, np.arctan(mu)).abscissa
-    for value, abscissa in zip(mu, abscissae, strict=True):
-        solution = solve_radial(hopper, float(np.arctan(value)))
-        try:
-            found = paper_abscissa(
-                solution, check["nodes"], check["coarse_nodes"], check["tolerance"]
-            )
-            rows.append([value, found.as_worded, found.physical, abscissa])
-        except ConvergenceError as error:
-            logging.info("mu = %.4f: %s", value, error)
-            rows.append([value, np.nan, np.nan, abscissa])
-    return rows
 
 
 if __name__ == "__main__":

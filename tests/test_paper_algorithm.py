@@ -110,3 +110,10 @@ def test_meshes_in_the_wrong_order(n, coarse_n):
     # A mesh agrees with itself in everything.
     with pytest.raises(InvalidParameterError, match="finer mesh first"):
         paper_abscissa(radial("wedge", 35, 10), n, coarse_n, TOLERANCE)
+
+
+def test_neutral_points_are_neutral_for_the_papers_algorithm_too():
+    # The line governs here: kept modes lie below it by their distance at 40 spacings or less.
+    solution = solve_radial(Hopper("cone", np.radians(33.6739), np.radians(10)), 0.0)
+    found = paper_abscissa(solution, 400, 200, TOLERANCE)
+    assert abs(found.physical) < 1e-5

@@ -36,6 +36,7 @@ COARSE: dict[str, Any] = {
     "stability_map.phi_deg.points": 7,
     "borders.neutral_step_deg": 4,
     "borders.delta_deg.points": 5,
+    "borders.check": CHECK,
     "domain_angle.half_angles_deg": [10],
     "domain_angle.neutral_step_deg": 4,
     "domain_angle.tangency_points": 5,

@@ -98,6 +98,7 @@ rule compute_borders:
         half_angle_deg=lambda wildcards: float(wildcards.angle),
         neutral_step_deg=config["borders"]["neutral_step_deg"],
         delta_deg=config["borders"]["delta_deg"],
+        check=config["borders"]["check"],
     script:
         "../../scripts/compute_borders.py"
 
