@@ -7,6 +7,9 @@ Targets: `snakemake` makes all figures, `snakemake figures/fig_3_1.png` one of t
 configfile: "config.yaml"
 
 
+report: "workflow/report/workflow.rst"
+
+
 include: "workflow/rules/common.smk"
 include: "workflow/rules/parameters.smk"
 include: "workflow/rules/geometry.smk"

@@ -128,7 +128,17 @@ rule plot_fig_4_4:
         cone="results/friction/{figure}/cone.nc",
         code=code_of("plot_fig_4_4"),
     output:
-        png=report("figures/{figure}.png", caption="../report/{figure}.rst", category="4 Stability"),
+        png=report(
+            "figures/{figure}.png",
+            caption="../report/fig_4_4.rst",
+            category="4 Stability",
+            labels=lambda wildcards: labels(
+                f"4.4, {curve('half_angle_deg')(wildcards):g}°",
+                "max Re λ over wall friction",
+                "wedge, cone",
+                "both",
+            ),
+        ),
         pdf="figures/{figure}.pdf",
     log:
         "logs/plot_fig_4_4/{figure}.log",
@@ -150,7 +160,12 @@ rule plot_fig_4_5:
         borders=expand("results/borders/cone_{angle}.nc", angle=MAP["half_angles_deg"]),
         code=code_of("plot_fig_4_5"),
     output:
-        png=report("figures/fig_4_5.png", caption="../report/fig_4_5.rst", category="4 Stability"),
+        png=report(
+            "figures/fig_4_5.png",
+            caption="../report/fig_4_5.rst",
+            category="4 Stability",
+            labels=labels("4.5", "stable domain and its borders", "cone", "physical"),
+        ),
         pdf="figures/fig_4_5.pdf",
     log:
         "logs/plot_fig_4_5.log",
@@ -173,7 +188,10 @@ rule plot_fig_4_5_map:
         code=code_of("plot_fig_4_5_map"),
     output:
         png=report(
-            "figures/fig_4_5_map.png", caption="../report/fig_4_5_map.rst", category="4 Stability"
+            "figures/fig_4_5_map.png",
+            caption="../report/fig_4_5_map.rst",
+            category="4 Stability",
+            labels=labels("4.5 map", "max Re λ as maps", "wedge, cone", "physical"),
         ),
         pdf="figures/fig_4_5_map.pdf",
     log:
@@ -199,6 +217,9 @@ rule plot_fig_domain_angle:
             "figures/fig_domain_angle.png",
             caption="../report/fig_domain_angle.rst",
             category="4 Stability",
+            labels=labels(
+                "4.5 half angle", "stable domain over the half angle", "cone", "physical"
+            ),
         ),
         pdf="figures/fig_domain_angle.pdf",
     log:

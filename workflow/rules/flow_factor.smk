@@ -31,7 +31,10 @@ rule plot_fig_jenike:
         code=code_of("plot_fig_jenike"),
     output:
         png=report(
-            "figures/fig_jenike.png", caption="../report/fig_jenike.rst", category="Validation"
+            "figures/fig_jenike.png",
+            caption="../report/fig_jenike.rst",
+            category="3 Radial solutions",
+            labels=labels("Jenike", "flow factors against published charts", "wedge, cone"),
         ),
         pdf="figures/fig_jenike.pdf",
     log:

@@ -10,7 +10,10 @@ rule plot_fig_1_1:
         code=code_of("plot_fig_1_1"),
     output:
         png=report(
-            "figures/fig_1_1.png", caption="../report/fig_1_1.rst", category="1 Introduction"
+            "figures/fig_1_1.png",
+            caption="../report/fig_1_1.rst",
+            category="1 Introduction",
+            labels=labels("1.1", "geometry and coordinates", "wedge, cone"),
         ),
         pdf="figures/fig_1_1.pdf",
     log:

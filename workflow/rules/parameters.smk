@@ -32,3 +32,8 @@ def transient(key):
 def curve(key):
     """A parameter of a figure over wall friction."""
     return lambda wildcards: config["friction_curves"][wildcards.figure][key]
+
+
+def labels(figure, shows, geometry, mode="—"):
+    """Columns of a figure's row in the report; its section is the category."""
+    return {"figure": figure, "shows": shows, "geometry": geometry, "mode": mode}

@@ -35,7 +35,10 @@ rule plot_fig_3_1:
         code=code_of("plot_fig_3_1"),
     output:
         png=report(
-            "figures/fig_3_1.png", caption="../report/fig_3_1.rst", category="3 Radial solutions"
+            "figures/fig_3_1.png",
+            caption="../report/fig_3_1.rst",
+            category="3 Radial solutions",
+            labels=labels("3.1", "stress and velocity", "cone"),
         ),
         pdf="figures/fig_3_1.pdf",
     log:
@@ -55,7 +58,10 @@ rule plot_fig_3_2:
         code=code_of("plot_fig_3_2"),
     output:
         png=report(
-            "figures/fig_3_2.png", caption="../report/fig_3_2.rst", category="3 Radial solutions"
+            "figures/fig_3_2.png",
+            caption="../report/fig_3_2.rst",
+            category="3 Radial solutions",
+            labels=labels("3.2", "velocity and angle ψ", "cone"),
         ),
         pdf="figures/fig_3_2.pdf",
     log:

@@ -123,7 +123,12 @@ rule plot_fig_4_1:
         artifact="results/smooth_wall.nc",
         code=code_of("plot_fig_4_1"),
     output:
-        png=report("figures/fig_4_1.png", caption="../report/fig_4_1.rst", category="4 Stability"),
+        png=report(
+            "figures/fig_4_1.png",
+            caption="../report/fig_4_1.rst",
+            category="4 Stability",
+            labels=labels("4.1", "smooth-wall abscissae", "wedge, cone", "exact"),
+        ),
         pdf="figures/fig_4_1.pdf",
     log:
         "logs/plot_fig_4_1.log",
@@ -144,7 +149,12 @@ rule plot_fig_4_2:
         cone_exact="results/spectrum/fig_4_2/cone_exact.nc",
         code=code_of("plot_fig_4_2"),
     output:
-        png=report("figures/fig_4_2.png", caption="../report/fig_4_2.rst", category="4 Stability"),
+        png=report(
+            "figures/fig_4_2.png",
+            caption="../report/fig_4_2.rst",
+            category="4 Stability",
+            labels=labels("4.2", "discrete spectra", "wedge, cone", "paper"),
+        ),
         pdf="figures/fig_4_2.pdf",
     log:
         "logs/plot_fig_4_2.log",
@@ -171,6 +181,7 @@ rule plot_fig_4_2_physical:
             "figures/fig_4_2_physical.png",
             caption="../report/fig_4_2_physical.rst",
             category="4 Stability",
+            labels=labels("4.2 physical", "spectra and the line Λ", "wedge, cone", "physical"),
         ),
         pdf="figures/fig_4_2_physical.pdf",
     log:

@@ -90,7 +90,12 @@ rule plot_fig_4_3:
         cone="results/transient/fig_4_3/cone.nc",
         code=code_of("plot_fig_4_3"),
     output:
-        png=report("figures/fig_4_3.png", caption="../report/fig_4_3.rst", category="4 Stability"),
+        png=report(
+            "figures/fig_4_3.png",
+            caption="../report/fig_4_3.rst",
+            category="4 Stability",
+            labels=labels("4.3", "norm of exp(−tM)", "wedge, cone", "paper"),
+        ),
         pdf="figures/fig_4_3.pdf",
     log:
         "logs/plot_fig_4_3.log",
@@ -113,6 +118,7 @@ rule plot_fig_4_3_norms:
             "figures/fig_4_3_norms.png",
             caption="../report/fig_4_3_norms.rst",
             category="4 Stability",
+            labels=labels("4.3 norms", "growth in four norms", "wedge, cone", "both"),
         ),
         pdf="figures/fig_4_3_norms.pdf",
     log:
@@ -138,6 +144,7 @@ rule plot_fig_pseudospectrum:
             "figures/fig_pseudospectrum.png",
             caption="../report/fig_pseudospectrum.rst",
             category="4 Stability",
+            labels=labels("pseudospectra", "least singular value of zI − M", "wedge, cone", "both"),
         ),
         pdf="figures/fig_pseudospectrum.pdf",
     log:
@@ -165,6 +172,7 @@ rule plot_fig_resolvent:
             "figures/fig_resolvent.png",
             caption="../report/fig_resolvent.rst",
             category="4 Stability",
+            labels=labels("resolvent", "resolvent and Kreiss bound", "wedge, cone", "both"),
         ),
         pdf="figures/fig_resolvent.pdf",
     log:
