@@ -1,13 +1,14 @@
 # make          build every figure          make test   set up if needed, check and test
 # make bench    measure the speed figures   make lock   resolve the dependencies anew (needs uv)
 # make figures/fig_3_1.png                  build one figure
+# make report   results/report.html         make crate  results/hopper-crate.zip, of a finished run
 
 PYTHON ?= python3
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip install -qq --disable-pip-version-check --require-hashes --no-build-isolation
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: figures test lint bench gallery lock clean FORCE
+.PHONY: figures test lint bench gallery lock clean report crate test-report FORCE
 
 figures: .venv/run.stamp
 	@$(BIN)/python -m snakemake
@@ -25,6 +26,16 @@ lint: .venv/test.stamp
 	@$(BIN)/mypy
 	@$(BIN)/lint-imports
 	@$(BIN)/python -m snakemake --lint
+
+report: .venv/run.stamp
+	@PYTHONPATH=scripts $(BIN)/python -m publish.report
+
+crate: .venv/run.stamp
+	@PYTHONPATH=scripts $(BIN)/python -m publish.crate
+
+# Opens results/report.html in a headless Chromium.
+test-report: .venv/test.stamp
+	@HOPPER_REPORT=results/report.html $(BIN)/python -m pytest tests/workflow/test_browser.py
 
 bench: .venv/test.stamp
 	@$(BIN)/python -m benchmarks
@@ -46,9 +57,11 @@ clean:
 	@$(BIN)/python -m pip install -qq --disable-pip-version-check --no-deps --no-build-isolation -e .
 	@touch $@
 
-.venv/test.stamp: .venv/run.stamp requirements-dev.lock
+# cffconvert brings the schema of CITATION.cff; what it needs itself is too old for the other tools.
+.venv/test.stamp: .venv/run.stamp requirements-dev.lock requirements-cff.lock
 	@echo "Adding the test tools from requirements-dev.lock"
 	@$(PIP) -r requirements-dev.lock
+	@$(PIP) --no-deps -r requirements-cff.lock
 	@touch $@
 
 COMPILE := uv pip compile --universal --generate-hashes --no-header --no-annotate -q
@@ -56,4 +69,5 @@ lock:
 	echo 'setuptools>=80' | $(COMPILE) - -o requirements-build.lock
 	$(COMPILE) pyproject.toml --extra workflow -c requirements-build.lock -o requirements.lock
 	$(COMPILE) pyproject.toml --extra workflow --extra dev -c requirements.lock -o requirements-dev.lock
+	echo 'cffconvert==2.0.0' | $(COMPILE) --no-deps - -o requirements-cff.lock
 	$(COMPILE) pyproject.toml --extra workflow --extra cluster -c requirements.lock -o requirements-cluster.lock
