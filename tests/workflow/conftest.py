@@ -14,7 +14,9 @@ import yaml
 
 ROOT = Path(__file__).parents[2]
 CHECK = {"points": 1, "nodes": 80, "coarse_nodes": 40, "tolerance": 0.001}
-PARTS = ("Snakefile", "config.yaml", "workflow", "scripts", "src", "envs", "profiles", "resources")
+PARTS = ("Snakefile", "config.yaml", "workflow", "scripts", "src", "envs", "profiles", "resources",
+         "Makefile", "pyproject.toml", "requirements-build.lock", "requirements.lock", "README.md",
+         "LICENSE", "CITATION.cff")  # fmt: skip
 # Numbers that make every rule run in about a second.
 COARSE: dict[str, Any] = {
     "fig_jenike.friction_angles_deg.step": 10,
@@ -52,6 +54,14 @@ class Workflow:
     def snakemake(self, *arguments: str, **variables: str) -> subprocess.CompletedProcess[str]:
         command = [sys.executable, "-m", "snakemake", "--cores", "2", *arguments]
         environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", **variables}
+        return subprocess.run(
+            command, cwd=self.path, env=environment, capture_output=True, text=True, check=False
+        )
+
+    def publish(self, what: str) -> subprocess.CompletedProcess[str]:
+        """Write the report or the crate."""
+        command = [sys.executable, "-m", f"publish.{what}"]
+        environment = {**os.environ, "PYTHONPATH": str(self.path / "scripts")}
         return subprocess.run(
             command, cwd=self.path, env=environment, capture_output=True, text=True, check=False
         )

@@ -1,0 +1,99 @@
+"""The RO-Crate of a run, read back with the library and checked against the files in it."""
+
+import hashlib
+import json
+import zipfile
+from pathlib import Path
+
+import pytest
+from rocrate.rocrate import ROCrate
+
+from hopper import __version__
+
+pytestmark = pytest.mark.workflow
+
+
+@pytest.fixture(scope="module")
+def archive(built) -> Path:
+    done = built.publish("crate")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == "results/hopper-crate.zip\n"
+    return Path(built.path / "results/hopper-crate.zip")
+
+
+@pytest.fixture(scope="module")
+def crate(archive: Path) -> ROCrate:
+    return ROCrate(archive)
+
+
+def files(crate: ROCrate):
+    return [entity for entity in crate.data_entities if "File" in entity.type]
+
+
+def test_every_file_is_there_with_its_checksum(crate, archive):
+    with zipfile.ZipFile(archive) as content:
+        names = set(content.namelist()) - {"ro-crate-metadata.json"}
+        assert {entity.id for entity in files(crate)} == names
+        for entity in files(crate):
+            data = content.read(entity.id)
+            assert entity["sha256"] == hashlib.sha256(data).hexdigest(), entity.id
+            assert entity["contentSize"] == str(len(data))
+            assert entity["encodingFormat"]
+
+
+def test_the_run_has_its_workflow_inputs_and_results(crate, built):
+    run = crate.get("#run")
+    assert crate.root_dataset["mentions"] == run
+    assert run["instrument"] == crate.mainEntity
+    assert "ComputationalWorkflow" in crate.mainEntity.type
+    assert crate.mainEntity.id == "Snakefile"
+    assert crate.mainEntity["programmingLanguage"]["name"] == "Snakemake"
+    assert crate.mainEntity["version"] == __version__
+    objects = {entity.id for entity in run["object"]}
+    assert objects == {"config.yaml", "resources/jenike_chart_delta40.csv"}
+    results = {entity.id for entity in run["result"]}
+    for pattern in ("figures/*.png", "figures/*.pdf", "results/**/*.nc", "results/**/*.json"):
+        made = {str(path.relative_to(built.path)) for path in built.path.glob(pattern)}
+        assert made
+        assert made <= results
+    for entity in run["object"] + run["result"]:
+        assert "FormalParameter" in entity["exampleOfWork"].type
+
+
+def test_a_figure_leads_to_its_artifacts_their_equations_and_provenance(crate):
+    sources = {entity.id for entity in crate.get("figures/fig_4_3.png")["isBasedOn"]}
+    assert sources == {f"results/transient/fig_4_3/{name}.nc" for name in ("wedge", "cone")}
+    artifact = crate.get("results/transient/fig_4_3/cone.nc")
+    assert "(4.11)" in artifact["description"]
+    assert artifact["isBasedOn"].id == "results/spectrum/fig_4_2/cone.nc"
+    assert artifact["subjectOf"].id == "results/transient/fig_4_3/cone.provenance.json"
+    chart = crate.get("results/flow_factor/jenike.nc")["isBasedOn"]
+    assert chart.id == "resources/jenike_chart_delta40.csv"
+
+
+def test_it_says_who_and_what_to_cite(crate):
+    assert crate.license.id == "https://spdx.org/licenses/MIT"
+    assert crate.root_dataset["author"]["name"] == "The hopper maintainers"
+    paper = crate.root_dataset["citation"]
+    assert paper["name"] == "Similarity solutions for granular flows in hoppers"
+    assert paper["author"][0]["name"] == "Pierre-Alain Gremaud"
+    profiles = {entity.id for entity in crate.root_dataset["conformsTo"]}
+    assert "https://w3id.org/ro/wfrun/workflow/0.5" in profiles
+
+
+def test_the_code_in_it_is_what_runs(crate, built):
+    code = {entity.id for entity in files(crate)}
+    for pattern in ("scripts/**/*.py", "src/**/*.py", "workflow/rules/*.smk"):
+        assert {str(path.relative_to(built.path)) for path in built.path.glob(pattern)} <= code
+    assert not {name for name in code if "__pycache__" in name}
+    assert {"requirements.lock", "Makefile", "LICENSE", "CITATION.cff"} <= code
+
+
+def test_a_second_crate_of_the_same_run_says_the_same(crate, built, archive):
+    def metadata():
+        with zipfile.ZipFile(archive) as content:
+            return json.loads(content.read("ro-crate-metadata.json"))
+
+    first = metadata()
+    assert built.publish("crate").returncode == 0
+    assert metadata() == first
