@@ -50,10 +50,11 @@ def modules_used_by(root: Path, script: str) -> list[str]:
 def relative(file: Path) -> str:
     """Return a path as rules should name it: relative where the workflow runs in its own clone.
 
-    So a clone may move without its results becoming outdated.
+    So a clone may move without its results becoming outdated. Elsewhere, as in a module of another
+    workflow, it is absolute: a prefix for the results must not apply to it.
     """
-    here = Path.cwd()
-    return str(file.relative_to(here) if file.is_relative_to(here) else file)
+    root = Path(__file__).parents[2]
+    return str(file.relative_to(root) if root.samefile(Path.cwd()) else file)
 
 
 def _imported(script: Path) -> set[str]:

@@ -15,8 +15,8 @@ import yaml
 ROOT = Path(__file__).parents[2]
 CHECK = {"points": 1, "nodes": 80, "coarse_nodes": 40, "tolerance": 0.001}
 PARTS = ("Snakefile", "config.yaml", "workflow", "scripts", "src", "envs", "profiles", "resources",
-         "Makefile", "pyproject.toml", "requirements-build.lock", "requirements.lock", "README.md",
-         "LICENSE", "CITATION.cff")  # fmt: skip
+         "config", "Makefile", "pyproject.toml", "requirements-build.lock", "requirements.lock",
+         "README.md", "LICENSE", "CITATION.cff")  # fmt: skip
 # Numbers that make every rule run in about a second.
 COARSE: dict[str, Any] = {
     "fig_jenike.friction_angles_deg.step": 10,

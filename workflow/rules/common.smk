@@ -3,11 +3,9 @@
 # =================================================================================================
 
 import sys
-from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-ROOT = Path(workflow.basedir)
 sys.path = [str(ROOT / "src"), str(ROOT / "scripts"), *sys.path]
 
 from support import code_graph, configuration

@@ -144,7 +144,9 @@ rule plot_fig_pseudospectrum:
             "figures/fig_pseudospectrum.png",
             caption="../report/fig_pseudospectrum.rst",
             category="4 Stability",
-            labels=labels("pseudospectra", "least singular value of zI − M", "wedge, cone", "both"),
+            labels=labels(
+                "pseudospectra", "least singular value of zI − M", "wedge, cone", "both"
+            ),
         ),
         pdf="figures/fig_pseudospectrum.pdf",
     log:
