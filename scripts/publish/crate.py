@@ -24,7 +24,7 @@ WORKFLOW, CONFIGURATION, CITATION = Path("Snakefile"), Path("config.yaml"), Path
 CODE = (
     *("workflow", "scripts", "src", "envs", "profiles", "resources"),
     *("Makefile", "pyproject.toml", "requirements-build.lock", "requirements.lock"),
-    *("README.md", "LICENSE", str(CITATION)),
+    *("README.md", "config/README.md", "LICENSE", str(CITATION)),
 )
 FORMATS = {".nc": "application/netcdf", ".yaml": "application/yaml", ".py": "text/x-python"}
 RUN_CONTEXT = "https://w3id.org/ro/terms/workflow-run/context"
