@@ -9,16 +9,22 @@ import pytest
 from rocrate.rocrate import ROCrate
 
 from hopper import __version__
+from tests.workflow.conftest import Workflow, copy
 
 pytestmark = pytest.mark.workflow
 
 
 @pytest.fixture(scope="module")
-def archive(built) -> Path:
-    done = built.publish("crate")
+def run(built: Workflow, tmp_path_factory: pytest.TempPathFactory) -> Workflow:
+    return copy(tmp_path_factory.mktemp("crate") / "run", results=built.path)
+
+
+@pytest.fixture(scope="module")
+def archive(run: Workflow) -> Path:
+    done = run.publish("crate")
     assert done.returncode == 0, done.stderr
     assert done.stdout == "results/hopper-crate.zip\n"
-    return Path(built.path / "results/hopper-crate.zip")
+    return run.path / "results/hopper-crate.zip"
 
 
 @pytest.fixture(scope="module")
@@ -41,22 +47,22 @@ def test_every_file_is_there_with_its_checksum(crate, archive):
             assert entity["encodingFormat"]
 
 
-def test_the_run_has_its_workflow_inputs_and_results(crate, built):
-    run = crate.get("#run")
-    assert crate.root_dataset["mentions"] == run
-    assert run["instrument"] == crate.mainEntity
+def test_the_run_has_its_workflow_inputs_and_results(crate, run):
+    action = crate.get("#run")
+    assert crate.root_dataset["mentions"] == action
+    assert action["instrument"] == crate.mainEntity
     assert "ComputationalWorkflow" in crate.mainEntity.type
     assert crate.mainEntity.id == "Snakefile"
     assert crate.mainEntity["programmingLanguage"]["name"] == "Snakemake"
     assert crate.mainEntity["version"] == __version__
-    objects = {entity.id for entity in run["object"]}
+    objects = {entity.id for entity in action["object"]}
     assert objects == {"config.yaml", "resources/jenike_chart_delta40.csv"}
-    results = {entity.id for entity in run["result"]}
+    results = {entity.id for entity in action["result"]}
     for pattern in ("figures/*.png", "figures/*.pdf", "results/**/*.nc", "results/**/*.json"):
-        made = {str(path.relative_to(built.path)) for path in built.path.glob(pattern)}
+        made = {str(path.relative_to(run.path)) for path in run.path.glob(pattern)}
         assert made
         assert made <= results
-    for entity in run["object"] + run["result"]:
+    for entity in action["object"] + action["result"]:
         assert "FormalParameter" in entity["exampleOfWork"].type
 
 
@@ -81,19 +87,19 @@ def test_it_says_who_and_what_to_cite(crate):
     assert "https://w3id.org/ro/wfrun/workflow/0.5" in profiles
 
 
-def test_the_code_in_it_is_what_runs(crate, built):
+def test_the_code_in_it_is_what_runs(crate, run):
     code = {entity.id for entity in files(crate)}
     for pattern in ("scripts/**/*.py", "src/**/*.py", "workflow/rules/*.smk"):
-        assert {str(path.relative_to(built.path)) for path in built.path.glob(pattern)} <= code
+        assert {str(path.relative_to(run.path)) for path in run.path.glob(pattern)} <= code
     assert not {name for name in code if "__pycache__" in name}
     assert {"requirements.lock", "Makefile", "LICENSE", "CITATION.cff"} <= code
 
 
-def test_a_second_crate_of_the_same_run_says_the_same(crate, built, archive):
+def test_a_second_crate_of_the_same_run_says_the_same(crate, run, archive):
     def metadata():
         with zipfile.ZipFile(archive) as content:
             return json.loads(content.read("ro-crate-metadata.json"))
 
     first = metadata()
-    assert built.publish("crate").returncode == 0
+    assert run.publish("crate").returncode == 0
     assert metadata() == first
