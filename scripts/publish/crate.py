@@ -44,10 +44,10 @@ def write_crate(path: Path) -> None:
     RunError
         If there is no finished run; an older crate stays as it is.
     """
-    products = run.products()
-    made = [product.path for product in products]
-    data = sorted({source for product in products for source in product.sources} - set(made))
-    finished = _time(max(file.stat().st_mtime for file in made))
+    made = run.products()
+    data = sorted({source for sources in made.values() for source in sources} - set(made))
+    latest = max(file.stat().st_mtime for file in made)
+    finished = datetime.fromtimestamp(latest, tz=UTC).isoformat(timespec="seconds")
 
     crate = ROCrate(version="1.1")
     crate.metadata.extra_contexts.append(RUN_CONTEXT)
@@ -63,9 +63,9 @@ def write_crate(path: Path) -> None:
         file: crate.add_file(file, file, properties=_properties(file))
         for file in [CONFIGURATION, *data, *made]
     }
-    for product in products:
-        if product.sources:
-            files[product.path]["isBasedOn"] = _compact(files[source] for source in product.sources)
+    for file, sources in made.items():
+        if sources:
+            files[file]["isBasedOn"] = _compact([files[source] for source in sources])
 
     inputs = {"configuration": [files[CONFIGURATION]], "data": [files[file] for file in data]}
     outputs = {folder: [files[file] for file in made if file.parts[0] == folder]
@@ -92,19 +92,17 @@ def _describe(crate: ROCrate, workflow: Entity, citation: Mapping[str, Any], fin
     """Say of the crate and its workflow what CITATION.cff says of the software."""
     root = crate.root_dataset
     root["conformsTo"] = [
-        crate.add(_entity(crate, url, "CreativeWork", name=name, version=url.rsplit("/", 1)[1]))
+        _add(crate, url, "CreativeWork", name=name, version=url.rsplit("/", 1)[1])
         for url, name in PROFILES.items()
     ]
     crate.name, crate.description = citation["title"], citation["abstract"]
     crate.keywords, crate.datePublished = citation["keywords"], finished
     license_url = f"https://spdx.org/licenses/{citation['license']}"
-    crate.license = crate.add(
-        _entity(crate, license_url, "CreativeWork", name=citation["license"], url=license_url)
-    )
+    crate.license = _add(crate, license_url, "CreativeWork", name=citation["license"])
     root["author"] = root["publisher"] = _authors(crate, citation)
     root["citation"] = _compact(
-        crate.add(
-            _entity(
+        [
+            _add(
                 crate,
                 f"#reference-{number}",
                 "ScholarlyArticle",
@@ -113,8 +111,8 @@ def _describe(crate: ROCrate, workflow: Entity, citation: Mapping[str, Any], fin
                 isPartOf=f"{reference['journal']} {reference['volume']}",
                 author=_authors(crate, reference),
             )
-        )
-        for number, reference in enumerate(citation["references"], start=1)
+            for number, reference in enumerate(citation["references"], start=1)
+        ]
     )
     workflow["conformsTo"] = {"@id": BIOSCHEMAS}
     workflow["name"], workflow["version"] = citation["title"], str(citation["version"])
@@ -130,8 +128,7 @@ def _authors(crate: ROCrate, work: Mapping[str, Any]) -> Entity | list[Entity]:
         for author in work["authors"]
     ]
     return _compact(
-        crate.add(_entity(crate, "#" + name.replace(" ", "-"), kind, name=name))
-        for name, kind in names
+        [_add(crate, "#" + name.replace(" ", "-"), kind, name=name) for name, kind in names]
     )
 
 
@@ -178,18 +175,13 @@ def _files_below(names: Iterable[str]) -> list[Path]:
     return sorted(found)
 
 
-def _entity(crate: ROCrate, identifier: str, kind: str, **properties: Any) -> ContextEntity:
-    return ContextEntity(crate, identifier, properties={"@type": kind, **properties})
+def _add(crate: ROCrate, identifier: str, kind: str, **properties: Any) -> Entity:
+    return crate.add(ContextEntity(crate, identifier, properties={"@type": kind, **properties}))
 
 
-def _compact(entities: Iterable[Entity]) -> Entity | list[Entity]:
+def _compact(entities: list[Entity]) -> Entity | list[Entity]:
     """Return a single entity as itself, as RO-Crate recommends."""
-    found = list(entities)
-    return found[0] if len(found) == 1 else found
-
-
-def _time(seconds: float) -> str:
-    return datetime.fromtimestamp(seconds, tz=UTC).isoformat(timespec="seconds")
+    return entities[0] if len(entities) == 1 else entities
 
 
 if __name__ == "__main__":

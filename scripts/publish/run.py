@@ -4,7 +4,6 @@ import csv
 import subprocess
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
 DATA = {".nc", ".csv"}  # suffixes of inputs that hold data; all other inputs are code
@@ -14,17 +13,8 @@ class RunError(Exception):
     """There is no finished run to publish; the message names the command that makes one."""
 
 
-@dataclass(frozen=True)
-class Product:
-    """A file the workflow made, and the data it was made from."""
-
-    path: Path
-    rule: str
-    sources: tuple[Path, ...]
-
-
-def products() -> list[Product]:
-    """Return every file the workflow makes, sorted by path.
+def products() -> dict[Path, list[Path]]:
+    """Return every file the workflow makes, sorted, and the files of data it was made from.
 
     Raises
     ------
@@ -34,27 +24,17 @@ def products() -> list[Product]:
     listing = snakemake("--detailed-summary")
     rows = list(csv.DictReader(listing.splitlines(), delimiter="\t"))
     stale = [row["output_file"] for row in rows if row["plan"] != "no update"]
-    if stale or not rows:
-        first = stale[0] if stale else "all"
+    if stale:
         raise RunError(
-            f"{len(stale)} of {len(rows)} results are missing or out of date, first {first}: "
+            f"{len(stale)} of {len(rows)} results are missing or out of date, first {stale[0]}: "
             "build them with: make"
         )
-    return sorted(
-        (
-            Product(
-                Path(row["output_file"]),
-                row["rule"],
-                tuple(
-                    Path(name)
-                    for name in row["input-file(s)"].split(",")
-                    if Path(name).suffix in DATA
-                ),
-            )
-            for row in rows
-        ),
-        key=lambda product: product.path,
-    )
+    return {
+        Path(row["output_file"]): [
+            Path(name) for name in row["input-file(s)"].split(",") if Path(name).suffix in DATA
+        ]
+        for row in sorted(rows, key=lambda row: row["output_file"])
+    }
 
 
 def snakemake(*arguments: str) -> str:

@@ -2,6 +2,8 @@
 
 import pytest
 
+from publish import run
+
 pytestmark = pytest.mark.workflow
 
 
@@ -36,3 +38,14 @@ def test_a_bad_configuration_is_named(rebuilt):
     assert done.returncode == 1
     assert "config key 'radial.fig_3_1.points': 'many' is not of type 'integer'" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_a_file_that_cannot_be_written_is_named_in_one_line(tmp_path):
+    def write(path):
+        path.write_text("whole")
+
+    path = tmp_path / "no such folder" / "report.html"
+    with pytest.raises(SystemExit) as ended:
+        run.publish(write, str(path))
+    assert str(ended.value).startswith(f"{path} not written: ")
+    assert "\n" not in str(ended.value)
