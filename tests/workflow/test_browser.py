@@ -67,7 +67,7 @@ class Reader:
         self.wait(lambda: self.links("Workflow"))
 
     def wait(self, condition):
-        return WebDriverWait(self.browser, 30).until(lambda _: condition())
+        return WebDriverWait(self.browser, 60).until(lambda _: condition())
 
     def all(self, selector: str) -> list[WebElement]:
         return self.browser.find_elements(By.CSS_SELECTOR, selector)
