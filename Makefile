@@ -1,14 +1,14 @@
 # make          build every figure          make test   set up if needed, check and test
+# make report   results/report.html         make crate  results/hopper-crate.zip, of a finished run
 # make bench    measure the speed figures   make lock   resolve the dependencies anew (needs uv)
 # make figures/fig_3_1.png                  build one figure
-# make report   results/report.html         make crate  results/hopper-crate.zip, of a finished run
 
 PYTHON ?= python3
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip install -qq --disable-pip-version-check --require-hashes --no-build-isolation
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: figures test lint bench gallery lock clean report crate test-report FORCE
+.PHONY: figures test lint bench gallery lock clean FORCE
 
 figures: .venv/run.stamp
 	@$(BIN)/python -m snakemake
@@ -26,6 +26,8 @@ lint: .venv/test.stamp
 	@$(BIN)/mypy
 	@$(BIN)/lint-imports
 	@$(BIN)/python -m snakemake --lint
+
+.PHONY: report crate test-report
 
 report: .venv/run.stamp
 	@PYTHONPATH=scripts $(BIN)/python -m publish.report

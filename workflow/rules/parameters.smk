@@ -3,6 +3,11 @@
 # =================================================================================================
 
 
+def labels(figure, shows, geometry, mode="—"):
+    """Columns of a figure's row in the report; its section is the category."""
+    return {"figure": figure, "shows": shows, "geometry": geometry, "mode": mode}
+
+
 def hopper_of(spectrum):
     """Parameters of the hopper of one of the discrete spectra, by its name."""
     case = config["spectra"][spectrum]
@@ -32,8 +37,3 @@ def transient(key):
 def curve(key):
     """A parameter of a figure over wall friction."""
     return lambda wildcards: config["friction_curves"][wildcards.figure][key]
-
-
-def labels(figure, shows, geometry, mode="—"):
-    """Columns of a figure's row in the report; its section is the category."""
-    return {"figure": figure, "shows": shows, "geometry": geometry, "mode": mode}
