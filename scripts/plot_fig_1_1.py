@@ -4,6 +4,7 @@ from math import cos, radians, sin
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.patches import Arc, FancyArrowPatch
 
 from support import jobs, plotting
@@ -12,7 +13,7 @@ _DEPTH = (0.85, 0.42)  # offset of the wedge's rear edge, in units of the slant 
 _FLATTENING = 0.22  # of the cone's circles as seen from the side
 
 
-def plot_fig_1_1(png: str, pdf: str, *, half_angle_deg: float, theta_deg: float) -> None:
+def draw(*, half_angle_deg: float, theta_deg: float) -> Figure:
     """Draw both geometries for a half opening angle, with a particle at polar angle theta."""
     figure, (wedge, cone) = plotting.subplots(1, 2, height=2.9)
     half_angle, theta = radians(half_angle_deg), radians(theta_deg)
@@ -29,7 +30,7 @@ def plot_fig_1_1(png: str, pdf: str, *, half_angle_deg: float, theta_deg: float)
     cone.set_xlim(-1.0, 1.25)
     for axis in (wedge, cone):
         axis.set_ylim(-0.34, 1.46)
-    plotting.save(figure, png, pdf)
+    return figure
 
 
 def _draw_wedge(axis: Axes, half_angle: float) -> None:
@@ -104,4 +105,4 @@ def _arrow(axis: Axes, start: np.ndarray, end: np.ndarray, color: str) -> None:
 
 
 if __name__ == "__main__":
-    jobs.run(plot_fig_1_1, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821

@@ -1,9 +1,11 @@
 """Figure 3.1: average stress and velocity, Mohr-Coulomb against von Mises."""
 
+from matplotlib.figure import Figure
+
 from support import artifacts, jobs, plotting
 
 
-def plot_fig_3_1(artifact: str, png: str, pdf: str) -> None:
+def draw(artifact: str) -> Figure:
     """Plot sigma and u over the polar angle for every model and wall friction."""
     data = artifacts.read(artifact)
     figure, axes = plotting.subplots(1, 2)
@@ -21,10 +23,10 @@ def plot_fig_3_1(artifact: str, png: str, pdf: str) -> None:
     axes[1].set_ylabel(r"velocity $u(\vartheta)/u(0)$")
     axes[1].legend(loc="lower center")
     plotting.letter(axes)
-    plotting.save(figure, png, pdf)
+    return figure
 
 
 _COLORS = (plotting.BLUE, plotting.ORANGE, plotting.GREEN, plotting.PURPLE)
 
 if __name__ == "__main__":
-    jobs.run(plot_fig_3_1, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821

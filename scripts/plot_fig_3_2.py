@@ -4,11 +4,12 @@ from math import pi
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from support import artifacts, jobs, plotting
 
 
-def plot_fig_3_2(artifact: str, png: str, pdf: str, *, stagnant_from_deg: float) -> None:
+def draw(artifact: str, *, stagnant_from_deg: float) -> Figure:
     """Plot u and psi of both models; shade the zone the paper calls essentially stagnant."""
     data = artifacts.read(artifact).isel(mu=0)
     half_angle = float(data.theta.max())
@@ -32,7 +33,7 @@ def plot_fig_3_2(artifact: str, png: str, pdf: str, *, stagnant_from_deg: float)
     angle.set_yticklabels([r"$-\pi/4$", r"$-\pi/8$", "0", r"$\pi/8$", r"$\pi/4$"])
     angle.set_ylabel(r"Sokolovskii angle $\psi$ (radians)")
     plotting.letter(axes)
-    plotting.save(figure, png, pdf)
+    return figure
 
 
 def _shade(axis: Axes, start: float, stop: float) -> None:
@@ -43,4 +44,4 @@ def _shade(axis: Axes, start: float, stop: float) -> None:
 _COLORS = (plotting.BLUE, plotting.ORANGE)
 
 if __name__ == "__main__":
-    jobs.run(plot_fig_3_2, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821

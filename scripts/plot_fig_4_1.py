@@ -1,9 +1,11 @@
 """Figure 4.1: abscissa of the line of eigenvalues over delta, smooth walls."""
 
+from matplotlib.figure import Figure
+
 from support import artifacts, jobs, plotting
 
 
-def plot_fig_4_1(artifact: str, png: str, pdf: str) -> None:
+def draw(artifact: str) -> Figure:
     """Plot both abscissae with the thresholds the paper marks."""
     data = artifacts.read(artifact)
     figure, axis = plotting.subplots(width=plotting.COLUMN_WIDTH, height=2.7)
@@ -27,8 +29,8 @@ def plot_fig_4_1(artifact: str, png: str, pdf: str) -> None:
     axis.set_xlabel(r"internal angle of friction $\delta$ (degrees)")
     axis.set_ylabel("abscissa of the line of eigenvalues")
     axis.legend(loc="upper right")
-    plotting.save(figure, png, pdf)
+    return figure
 
 
 if __name__ == "__main__":
-    jobs.run(plot_fig_4_1, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821

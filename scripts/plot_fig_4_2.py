@@ -3,20 +3,12 @@
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from support import artifacts, fields, jobs, plotting
 
 
-def plot_fig_4_2(
-    wedge: str,
-    cone: str,
-    wedge_exact: str,
-    cone_exact: str,
-    png: str,
-    pdf: str,
-    *,
-    zoom_imag: float,
-) -> None:
+def draw(wedge: str, cone: str, wedge_exact: str, cone_exact: str, *, zoom_imag: float) -> Figure:
     """Plot the first unbroken run kept as worded (top), and its low part with (4.7), (4.9)."""
     figure, axes = plotting.subplots(2, 2, height=5.2)
     columns = (("wedge", wedge, wedge_exact, "(4.7)"), ("cone", cone, cone_exact, "(4.9)"))
@@ -42,7 +34,7 @@ def plot_fig_4_2(
         axis.set_xlabel(r"Re $\lambda$")
         axis.set_ylabel(r"Im $\lambda$")
         axis.margins(x=0.12)
-    plotting.save(figure, png, pdf)
+    return figure
 
 
 def _draw_spectrum(axis: Axes, data: xr.Dataset) -> None:
@@ -58,4 +50,4 @@ def _draw_spectrum(axis: Axes, data: xr.Dataset) -> None:
 
 
 if __name__ == "__main__":
-    jobs.run(plot_fig_4_2, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821

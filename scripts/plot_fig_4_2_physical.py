@@ -1,13 +1,12 @@
 """Figure 4.2 in physical mode: the modes of the flow's parity approach the asymptotic line."""
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from support import artifacts, fields, jobs, plotting
 
 
-def plot_fig_4_2_physical(
-    wedge: str, cone: str, wedge_line: str, cone_line: str, png: str, pdf: str
-) -> None:
+def draw(wedge: str, cone: str, wedge_line: str, cone_line: str) -> Figure:
     """Plot the kept physical modes with the line (top), and their distance to it (bottom)."""
     figure, axes = plotting.subplots(2, 2, height=5.2)
     columns = (("wedge", wedge, wedge_line), ("cone", cone, cone_line))
@@ -37,8 +36,8 @@ def plot_fig_4_2_physical(
         bottom.set_xlim(-1.15 * widest, 1.15 * widest)
         bottom.ticklabel_format(axis="x", style="sci", scilimits=(-2, 2), useMathText=True)
         bottom.legend()
-    plotting.save(figure, png, pdf)
+    return figure
 
 
 if __name__ == "__main__":
-    jobs.run(plot_fig_4_2_physical, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821

@@ -1,9 +1,11 @@
 """Figure 4.3: growth of perturbations down the hopper between the bounds of (4.11)."""
 
+from matplotlib.figure import Figure
+
 from support import artifacts, jobs, plotting
 
 
-def plot_fig_4_3(wedge: str, cone: str, png: str, pdf: str) -> None:
+def draw(wedge: str, cone: str) -> Figure:
     """Plot the norm of exp(-t M) over -t with both bounds, wedge left, cone right."""
     figure, axes = plotting.subplots(1, 2, height=2.8)
     for axis, path, title in zip(axes, (wedge, cone), _TITLES, strict=True):
@@ -19,10 +21,10 @@ def plot_fig_4_3(wedge: str, cone: str, png: str, pdf: str) -> None:
         axis.set_xlabel(r"$-t = -\log r$")
     axes[0].set_ylabel("norm")
     axes[0].legend(loc="lower right")
-    plotting.save(figure, png, pdf)
+    return figure
 
 
 _TITLES = ("wedge, unstable", "cone, stable")
 
 if __name__ == "__main__":
-    jobs.run(plot_fig_4_3, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821

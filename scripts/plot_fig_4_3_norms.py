@@ -1,9 +1,11 @@
 """Figure 4.3 in other norms: which part of the oscillation belongs to the norm."""
 
+from matplotlib.figure import Figure
+
 from support import artifacts, jobs, plotting
 
 
-def plot_fig_4_3_norms(wedge: str, cone: str, png: str, pdf: str) -> None:
+def draw(wedge: str, cone: str) -> Figure:
     """Plot the growth relative to exp(-t alpha), a row for each set of kept modes."""
     panels = [artifacts.read(path) for path in (wedge, cone)]
     figure, axes = plotting.subplots(2, 2, height=4.6, sharex=True)
@@ -25,10 +27,10 @@ def plot_fig_4_3_norms(wedge: str, cone: str, png: str, pdf: str) -> None:
     for axis in axes[:, 0]:
         axis.set_ylabel(r"$\|\exp(-t M)\|\, e^{t\alpha}$")
     figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    plotting.save(figure, png, pdf)
+    return figure
 
 
 _NORMS = (("discrete", plotting.BLUE), ("$L_2$", plotting.ORANGE))
 
 if __name__ == "__main__":
-    jobs.run(plot_fig_4_3_norms, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821

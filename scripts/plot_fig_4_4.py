@@ -3,11 +3,12 @@
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from support import artifacts, jobs, plotting
 
 
-def plot_fig_4_4(wedge: str, cone: str, png: str, pdf: str, *, half_angle_deg: float) -> None:
+def draw(wedge: str, cone: str, *, half_angle_deg: float) -> Figure:
     """Plot max Re(lambda) over mu, wedge left, cone right, a curve for each delta."""
     figure, axes = plotting.subplots(1, 2, height=3.3)
     for axis, path, geometry in zip(axes, (wedge, cone), ("wedge", "cone"), strict=True):
@@ -22,7 +23,7 @@ def plot_fig_4_4(wedge: str, cone: str, png: str, pdf: str, *, half_angle_deg: f
     for style in _LEGEND:
         axes[0].plot([], [], **style)
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    plotting.save(figure, png, pdf)
+    return figure
 
 
 def _draw_curve(axis: Axes, data: xr.Dataset, color: str, label: str) -> None:
@@ -50,4 +51,4 @@ _LEGEND = (
 )
 
 if __name__ == "__main__":
-    jobs.run(plot_fig_4_4, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821

@@ -2,17 +2,14 @@
 
 from collections.abc import Sequence
 
+from matplotlib.figure import Figure
+
 from support import artifacts, domains, jobs, plotting
 
 
-def plot_fig_4_5(
-    borders: Sequence[str],
-    png: str,
-    pdf: str,
-    *,
-    half_angles_deg: Sequence[float],
-    largest_phi_deg: float,
-) -> None:
+def draw(
+    borders: Sequence[str], *, half_angles_deg: Sequence[float], largest_phi_deg: float
+) -> Figure:
     """Draw the domain for each half angle: what is stable, unstable, and not decided."""
     figure, axes = plotting.subplots(1, len(borders), height=3.6, sharey=True, squeeze=False)
     for axis, path, angle in zip(axes.flat, borders, half_angles_deg, strict=True):
@@ -24,8 +21,8 @@ def plot_fig_4_5(
         axis.set_xlabel(r"angle of internal friction $\delta$ (degrees)")
     axes[0, 0].set_ylabel(r"angle of wall friction $\phi$ (degrees)")
     figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    plotting.save(figure, png, pdf)
+    return figure
 
 
 if __name__ == "__main__":
-    jobs.run(plot_fig_4_5, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821

@@ -6,19 +6,18 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap, SymLogNorm
+from matplotlib.figure import Figure
 
 from support import artifacts, domains, jobs, plotting
 
 
-def plot_fig_4_5_map(
+def draw(
     maps: Sequence[str],
     borders: Sequence[str],
-    png: str,
-    pdf: str,
     *,
     panels: Sequence[str],
     color_range: Sequence[float],
-) -> None:
+) -> Figure:
     """Plot one panel for each geometry and half angle, with the borders over the map."""
     linear, largest = color_range
     norm = SymLogNorm(linear, vmin=-largest, vmax=largest)
@@ -39,7 +38,7 @@ def plot_fig_4_5_map(
     figure.colorbar(mesh, ax=axes, label=r"max Re $\lambda$ (red: unstable, blue: stable)",
                     shrink=0.7, extend="both")  # fmt: skip
     figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
-    plotting.save(figure, png, pdf)
+    return figure
 
 
 def _mark_undecided(axis: Axes, data: xr.Dataset) -> None:
@@ -60,4 +59,4 @@ _GREYS = {
 }
 
 if __name__ == "__main__":
-    jobs.run(plot_fig_4_5_map, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821

@@ -1,11 +1,12 @@
 """How the stable domain of cones shrinks with the half opening angle."""
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from support import artifacts, jobs, plotting
 
 
-def plot_fig_domain_angle(artifact: str, png: str, pdf: str) -> None:
+def draw(artifact: str) -> Figure:
     """Plot the area of the domain and the neutral delta at several wall frictions."""
     data = artifacts.read(artifact)
     figure, (left, right) = plotting.subplots(1, 2, height=2.8)
@@ -23,8 +24,8 @@ def plot_fig_domain_angle(artifact: str, png: str, pdf: str) -> None:
         axis.set_xlabel(r"half opening angle $\vartheta_w$ (degrees)")
         axis.set_xlim(0, float(data.half_angle.max()) * 1.03)
     plotting.letter((left, right))
-    plotting.save(figure, png, pdf)
+    return figure
 
 
 if __name__ == "__main__":
-    jobs.run(plot_fig_domain_angle, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821

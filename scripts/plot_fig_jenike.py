@@ -1,11 +1,12 @@
 """Validation figure: published flow-factor points over computed curves."""
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from support import artifacts, jobs, plotting
 
 
-def plot_fig_jenike(artifact: str, png: str, pdf: str) -> None:
+def draw(artifact: str) -> Figure:
     """Plot flow factor over wall friction, a panel for each geometry, a colour for each angle."""
     data = artifacts.read(artifact)
     figure, axes = plotting.subplots(1, 2, height=3.0, sharey=True)
@@ -38,8 +39,8 @@ def plot_fig_jenike(artifact: str, png: str, pdf: str) -> None:
     rms = 100 * float(data.rms_deviation)
     note = f"lines: computed\npoints: published chart\nRMS {rms:.1f} %"
     axes[0].text(0.97, 0.45, note, transform=axes[0].transAxes, ha="right", fontsize=7)
-    plotting.save(figure, png, pdf)
+    return figure
 
 
 if __name__ == "__main__":
-    jobs.run(plot_fig_jenike, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821

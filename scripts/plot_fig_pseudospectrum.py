@@ -3,20 +3,19 @@
 from collections.abc import Sequence
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from support import artifacts, fields, jobs, plotting
 
 
-def plot_fig_pseudospectrum(
+def draw(
     wedge_paper: str,
     cone_paper: str,
     wedge_physical: str,
     cone_physical: str,
-    png: str,
-    pdf: str,
     *,
     levels_log10: Sequence[float],
-) -> None:
+) -> Figure:
     """Plot contours of sigma_min(z I - M), labelled in powers of ten, with the eigenvalues."""
     levels = sorted(levels_log10)
     norm = plotting.level_norm(levels)
@@ -42,11 +41,11 @@ def plot_fig_pseudospectrum(
     for axis in axes[:, 0]:
         axis.set_ylabel(r"Im $z$")
     plotting.level_bar(figure, axes, _CMAP, norm, levels, r"$\varepsilon = \sigma_{\min}(zI - M)$")
-    plotting.save(figure, png, pdf)
+    return figure
 
 
 _CMAP = "viridis"
 _NORMS = {"paper": "discrete", "physical": "$L_2$"}
 
 if __name__ == "__main__":
-    jobs.run(plot_fig_pseudospectrum, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821

@@ -1,11 +1,11 @@
 """Resolvent norm along the imaginary axis, and the Kreiss bound against the measured growth."""
 
+from matplotlib.figure import Figure
+
 from support import artifacts, jobs, plotting
 
 
-def plot_fig_resolvent(
-    wedge_paper: str, cone_paper: str, wedge_physical: str, cone_physical: str, png: str, pdf: str
-) -> None:
+def draw(wedge_paper: str, cone_paper: str, wedge_physical: str, cone_physical: str) -> Figure:
     """Plot the resolvent (top) and the relative growth with its Kreiss bound (bottom)."""
     figure, axes = plotting.subplots(2, 2, height=5.0)
     paths = (("wedge", wedge_paper, wedge_physical), ("cone", cone_paper, cone_physical))
@@ -35,8 +35,8 @@ def plot_fig_resolvent(
         bottom.set_xlim(0, float(data.elapsed.max()))
     for row, place in ((1, "outside lower center"), (0, "outside upper center")):
         figure.legend(*axes[row, 0].get_legend_handles_labels(), loc=place, ncols=4)
-    plotting.save(figure, png, pdf)
+    return figure
 
 
 if __name__ == "__main__":
-    jobs.run(plot_fig_resolvent, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821

@@ -1,6 +1,6 @@
 """One look for all figures: sizes, colours, line styles, reproducible files."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -51,6 +51,18 @@ def save(figure: Figure, png: str | Path, pdf: str | Path) -> None:
     with replacing(pdf) as path:
         figure.savefig(path, metadata={"CreationDate": None, "Producer": None, "Creator": None})
     plt.close(figure)
+
+
+def saving(draw: Callable[..., Figure]) -> Callable[..., None]:
+    """Return the function of a plot's rule: it draws from the job's inputs and params, and saves.
+
+    ``draw`` itself writes nothing, so that checks can look at the figure.
+    """
+
+    def plot(*, png: str, pdf: str, **arguments: Any) -> None:
+        save(draw(**arguments), png, pdf)
+
+    return plot
 
 
 def degree_ticks(axis: Axes, half_angle: float, step: float) -> None:
