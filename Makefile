@@ -2,13 +2,15 @@
 # make report   results/report.html         make crate  results/hopper-crate.zip, of a finished run
 # make bench    measure the speed figures   make lock   resolve the dependencies anew (needs uv)
 # make figures/fig_3_1.png                  build one figure
+# make check    compare artifacts and figures with what is stored in tests/figures
+# make references                           store them anew, after a deliberate change
 
 PYTHON ?= python3
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip install -qq --disable-pip-version-check --require-hashes --no-build-isolation
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: figures test lint bench gallery lock clean FORCE
+.PHONY: figures test check references lint bench gallery lock clean FORCE
 
 figures: .venv/run.stamp
 	@$(BIN)/python -m snakemake
@@ -17,7 +19,16 @@ figures/%: .venv/run.stamp FORCE
 	@$(BIN)/python -m snakemake $@
 
 test: lint
-	@$(BIN)/python -m pytest
+	@$(BIN)/python -m pytest -n 2 --dist worksteal
+
+# The HTML report opens offline as fig_comparison_basic.html.
+CHECKS := results/figure_checks
+check: figures .venv/test.stamp
+	@$(BIN)/python -m pytest tests/figures -n 2 --mpl --mpl-results-path=$(CHECKS) --mpl-generate-summary=html,basic-html
+
+references: figures .venv/test.stamp
+	@$(BIN)/python -m pytest -q tests/figures -k 'not deliberate' --mpl-generate-path=tests/figures/baseline
+	@git status --short tests/figures
 
 lint: .venv/test.stamp
 	@$(BIN)/ruff check .

@@ -1,5 +1,6 @@
 """A copy of the workflow in a directory of its own, built once for all tests that only look."""
 
+import fcntl
 import os
 import re
 import shutil
@@ -122,11 +123,21 @@ def copy(target: Path, *, results: Path | None = None) -> Workflow:
 
 
 @pytest.fixture(scope="session")
-def built(tmp_path_factory: pytest.TempPathFactory) -> Workflow:
-    """The real workflow with all figures, in a path with a space. Do not change it."""
-    workflow = copy(tmp_path_factory.mktemp("built") / "a path with a space")
-    workflow.build()
-    return workflow
+def built(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Workflow:
+    """The real workflow with all figures, in a path with a space. Do not change it.
+
+    Of the processes that run tests the first to ask builds it, the others wait for it.
+    """
+    own = tmp_path_factory.getbasetemp()
+    shared = own if worker_id == "master" else own.parent
+    path, complete = shared / "built/a path with a space", shared / "built/complete"
+    with (shared / "built.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not complete.exists():
+            shutil.rmtree(path, ignore_errors=True)
+            copy(path).build()
+            complete.touch()
+    return Workflow(path)
 
 
 @pytest.fixture

@@ -1,0 +1,18 @@
+"""Layer 1: the numbers behind the figures."""
+
+import pytest
+
+from support import artifacts
+from tests.figures import numbers
+
+
+def test_artifact(artifact, storing):
+    data, entry = artifacts.read(f"results/{artifact}"), numbers.entry_of(artifact)
+    path = numbers.REFERENCES / artifact
+    found = ["there is no reference"]
+    if path.exists():
+        found = numbers.differences(data, artifacts.read(path), entry)
+    if storing and found:
+        numbers.store(numbers.reference(data, entry), path)
+    elif found:
+        pytest.fail(f"results/{artifact}:\n  " + "\n  ".join(found), pytrace=False)
