@@ -1,7 +1,7 @@
 """Layer 1: artifacts against stored references, within the tolerances of tolerances.yaml.
 
-``python -m tests.figures.numbers OTHER/results`` prints how far the artifacts of another machine
-or another BLAS kernel are from those in results/, rule by rule: what ``measured`` records.
+``PYTHONPATH=scripts python -m tests.figures.numbers OTHER/results`` prints how far the artifacts of
+another machine or BLAS kernel are from those in results/, rule by rule: what ``measured`` records.
 """
 
 import json
@@ -40,12 +40,16 @@ def entry_of(artifact: str) -> dict[str, Any]:
     for pattern, entry in tolerances().items():
         if PurePosixPath(artifact).match(pattern):
             return entry
-    raise KeyError(f"{artifact} feeds a figure: give its tolerances in tests/figures/tolerances.yaml")
+    raise KeyError(
+        f"{artifact} feeds a figure: give its tolerances in tests/figures/tolerances.yaml"
+    )
 
 
 def compared_artifacts() -> list[str]:
     """Return the artifacts that feed a figure and are compared, as paths below results/."""
-    feeding = {path.removeprefix("results/") for plot in plots().values() for path in plot.artifacts}
+    feeding = {
+        path.removeprefix("results/") for plot in plots().values() for path in plot.artifacts
+    }
     return sorted(path for path in feeding if "left_out" not in entry_of(path))
 
 
@@ -100,7 +104,11 @@ def deviations(
         if "spectrum" in rule:
             drawn = _matched(drawn, stored, rule["spectrum"])
         if "curve" in rule:
-            yield rule, " over ".join(rule["curve"]), _distance_of_curves(drawn, stored, *rule["curve"])
+            yield (
+                rule,
+                " over ".join(rule["curve"]),
+                _distance_of_curves(drawn, stored, *rule["curve"]),
+            )
     for name in map(str, {**drawn.variables, **stored.variables}):
         rule = _EXACT if name not in stored.coords else _COORDINATES
         rule = rules.get(name.removesuffix("_mean"), rule)
@@ -123,7 +131,10 @@ def names_of(rule: Rule) -> list[str]:
 def _deviation(rule: Rule, drawn: xr.DataArray, stored: xr.DataArray) -> float:
     """Return the largest deviation of one variable; attributes and exact values count as well."""
     a, b = drawn.to_numpy(), stored.to_numpy()
-    meaning = [{key: str(each.attrs.get(key)) for key in ("units", "flag_meanings")} for each in (drawn, stored)]
+    meaning = [
+        {key: str(each.attrs.get(key)) for key in ("units", "flag_meanings")}
+        for each in (drawn, stored)
+    ]
     if a.shape != b.shape or meaning[0] != meaning[1]:
         return np.inf
     if b.dtype.kind != "f":

@@ -52,7 +52,9 @@ def _plots_of_workflow() -> list[Plot]:
         with contextlib.redirect_stdout(io.StringIO()):
             workflow.dag(DAGSettings()).summary()  # resolves all jobs and runs none
         jobs = list(workflow._workflow.dag.jobs)  # no public attribute holds them
-    made_from = {str(output): [str(path) for path in job.input] for job in jobs for output in job.output}
+    made_from = {
+        str(output): [str(path) for path in job.input] for job in jobs for output in job.output
+    }
     return [_plot(job, made_from) for job in jobs if job.rule.name.startswith("plot_")]
 
 

@@ -100,8 +100,12 @@ def _axes(axes: Axes) -> dict[str, Any]:
     title = {place: axes.get_title(loc=place) for place in ("left", "center", "right")}
     described = {
         "title": _Row(_without_blanks(title)),
-        "x": _Row(label=axes.get_xlabel(), scale=axes.get_xscale(), limits=_numbers(axes.get_xlim())),
-        "y": _Row(label=axes.get_ylabel(), scale=axes.get_yscale(), limits=_numbers(axes.get_ylim())),
+        "x": _Row(
+            label=axes.get_xlabel(), scale=axes.get_xscale(), limits=_numbers(axes.get_xlim())
+        ),
+        "y": _Row(
+            label=axes.get_ylabel(), scale=axes.get_yscale(), limits=_numbers(axes.get_ylim())
+        ),
         "legend": _legend(axes.get_legend()),
         "artists": [
             _Row(_without_blanks(_artist(artist)))
@@ -141,9 +145,17 @@ def _artist(artist: Artist) -> dict[str, Any]:
             }
     elif isinstance(artist, Text):
         place = artist.xy if isinstance(artist, Annotation) else artist.get_position()
-        found |= {"text": artist.get_text(), "color": to_hex(artist.get_color()), "at": _numbers(place)}
+        found |= {
+            "text": artist.get_text(),
+            "color": to_hex(artist.get_color()),
+            "at": _numbers(place),
+        }
     elif isinstance(artist, ContourSet):
-        found |= {"map": artist.cmap.name, "filled": artist.filled, "levels": _numbers(artist.levels)}
+        found |= {
+            "map": artist.cmap.name,
+            "filled": artist.filled,
+            "levels": _numbers(artist.levels),
+        }
     elif isinstance(artist, QuadMesh):
         found |= {
             "map": artist.cmap.name,

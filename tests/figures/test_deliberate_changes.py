@@ -10,7 +10,11 @@ def test_a_wrong_sign_is_found(artifact):
     data, entry = artifacts.read(f"results/{artifact}"), numbers.entry_of(artifact)
     stored = artifacts.read(numbers.REFERENCES / artifact)
     bounded = {name for rule in entry["rules"] if "below" in rule for name in rule["variables"]}
-    compared = [name for name, values in data.data_vars.items() if values.dtype.kind == "f" and abs(values).max() > 0]
+    compared = [
+        name
+        for name, values in data.data_vars.items()
+        if values.dtype.kind == "f" and abs(values).max() > 0
+    ]
     # A spectrum is symmetric: with the sign of all imaginary parts changed it is the same.
     for name in {*compared} - bounded - {"eigenvalue_imag"}:
         assert numbers.differences(data.assign({name: -data[name]}), stored, entry), name

@@ -8,7 +8,9 @@ from tests.figures import images, registry
 def pytest_generate_tests(metafunc):
     if "picture" in metafunc.fixturenames:
         pictures = registry.plots().items()
-        marked = [pytest.param(plot, id=name, marks=images.comparison(name)) for name, plot in pictures]
+        marked = [
+            pytest.param(plot, id=name, marks=images.comparison(name)) for name, plot in pictures
+        ]
         metafunc.parametrize("picture", marked)
 
 
