@@ -19,6 +19,7 @@ include: "workflow/rules/flow_factor.smk"
 include: "workflow/rules/spectrum.smk"
 include: "workflow/rules/transient.smk"
 include: "workflow/rules/domain.smk"
+include: "workflow/rules/cases.smk"
 
 
 rule all:

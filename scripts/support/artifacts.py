@@ -1,12 +1,10 @@
 """Read and write netCDF artifacts (CF, ACDD), each with a provenance side file."""
 
-import contextlib
 import hashlib
 import json
-import os
 import platform
 import subprocess
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
@@ -15,37 +13,15 @@ from typing import Any
 import xarray as xr
 
 from hopper import __version__
+from hopper_cli import cf
+from hopper_cli.cf import plain as plain
+from hopper_cli.files import replacing as replacing
 
-PAPER = (
-    "P.-A. Gremaud, J. V. Matthews, M. Shearer, Similarity solutions for granular flows in "
-    "hoppers, Contemporary Mathematics 255 (2000)"
-)
 _PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "matplotlib", "snakemake")
 
 
 class ArtifactError(Exception):
     """An artifact is missing, damaged, or was made from another configuration."""
-
-
-def plain(parameters: Mapping[str, Any]) -> str:
-    """Return parameters as canonical JSON, the form stored in an artifact."""
-    return json.dumps(parameters, sort_keys=True, default=list)
-
-
-@contextlib.contextmanager
-def replacing(path: str | Path) -> Iterator[Path]:
-    """Yield a temporary path beside ``path`` and move it there once it is complete."""
-    target = Path(path)
-    target.parent.mkdir(parents=True, exist_ok=True)
-    # The suffix stays last: writers choose the format by it.
-    temporary = target.with_name(f".{target.stem}.{os.getpid()}.partial{target.suffix}")
-    try:
-        yield temporary
-        with temporary.open("rb") as file:
-            os.fsync(file.fileno())
-        temporary.replace(target)
-    finally:
-        temporary.unlink(missing_ok=True)
 
 
 def write(
@@ -62,21 +38,14 @@ def write(
     ``equations`` names the equations or sections of the paper the data come from, ``parameters``
     the part of the configuration they depend on.
     """
-    dataset = dataset.assign_attrs(
-        Conventions="CF-1.11, ACDD-1.3",
+    cf.write(
+        dataset,
+        path,
         title=title,
-        summary=f"{title}. Equations: {equations}.",
-        keywords="granular flow, hopper, similarity solution, linear stability",
-        source=f"hopper {__version__}",
-        product_version=__version__,
-        institution="hopper project",
+        equations=equations,
+        parameters=parameters,
         history=f"written by hopper {__version__}; see the .provenance.json beside this file",
-        references=PAPER,
-        parameters=plain(parameters),
     )
-    encoding = {name: {"_FillValue": None} for name in dataset.variables}
-    with replacing(path) as temporary:
-        dataset.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
     _write_provenance(Path(path), Path(provenance), title, equations, parameters)
 
 

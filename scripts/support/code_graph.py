@@ -9,12 +9,12 @@ from pathlib import Path
 
 import grimp
 
-PACKAGES = {"hopper": "src", "support": "scripts"}
+PACKAGES = {"hopper": "src", "hopper_cli": "src", "support": "scripts"}
 
 
 def let_scripts_import(root: Path) -> None:
     """Make the packages below ``root`` importable for this process and the scripts it starts."""
-    folders = [str(root / folder) for folder in PACKAGES.values()]
+    folders = [str(root / folder) for folder in dict.fromkeys(PACKAGES.values())]
     inherited = os.environ.get("PYTHONPATH", "").split(os.pathsep)
     kept = [folder for folder in inherited if folder and folder not in folders]
     os.environ["PYTHONPATH"] = os.pathsep.join(folders + kept)

@@ -1,13 +1,17 @@
 """Check config.yaml against the schema before any job starts."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from math import atan, radians
 from pathlib import Path
 from typing import Any
 
 import jsonschema
 import yaml
 from jsonschema.exceptions import ValidationError, best_match
+
+from hopper.errors import WallFrictionError
+from hopper.yield_conditions import yield_condition
 
 
 class ConfigurationError(Exception):
@@ -30,6 +34,7 @@ def check(config: Mapping[str, Any], schema_path: str | Path) -> None:
     if error is not None:
         raise ConfigurationError(_explain(error, schema_path))
     _check_order(config)
+    _check_cases(config["cases"])
 
 
 def _check_order(config: Mapping[str, Any]) -> None:
@@ -44,6 +49,22 @@ def _check_order(config: Mapping[str, Any]) -> None:
         parent, _, name = key.rpartition(".")
         if name == "stop" and value <= _get(config, parent).get("start", -math.inf):
             raise ConfigurationError(f"config key '{key}': {value} must be above start")
+
+
+def _check_cases(cases: Sequence[Mapping[str, Any]]) -> None:
+    """Check what a schema cannot: names that repeat, and walls no material transmits."""
+    names: set[str] = set()
+    for index, case in enumerate(cases):
+        key = f"config key 'cases[{index}]"
+        if case["name"] in names:
+            raise ConfigurationError(f"{key}.name': {case['name']} is taken: give another name")
+        names.add(case["name"])
+        if case["model"] == "von-mises" and case["geometry"] == "wedge":
+            raise ConfigurationError(f"{key}.model': von-mises is formulated for cones only")
+        try:
+            yield_condition(case["model"]).wall_angle(radians(case["delta_deg"]), atan(case["mu"]))
+        except WallFrictionError as error:
+            raise ConfigurationError(f"{key}.mu': {error}") from None
 
 
 def _get(config: Mapping[str, Any], key: str) -> Any:

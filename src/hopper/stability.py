@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hopper.asymptotic_line import AsymptoticLine, asymptotic_line
+from hopper.chebyshev import Array
 from hopper.collocation import half_matrix
 from hopper.errors import ConvergenceError
 from hopper.radial import RadialSolution
@@ -32,6 +33,8 @@ class Stability:
     ----------
     eigenvalues : complex array, shape (n,)
         Converged low modes of physical parity with Im >= 0, by increasing modulus.
+    mode_errors : array, shape (n,)
+        Absolute errors that the mesh leaves in them.
     line : AsymptoticLine
     abscissa : float
         Supremum of Re(lambda); not attained by a mode where the line governs.
@@ -41,6 +44,7 @@ class Stability:
     """
 
     eigenvalues: Complex
+    mode_errors: Array
     line: AsymptoticLine
     abscissa: float
     governed_by: Literal["mode", "line"]
@@ -66,11 +70,12 @@ def stability(solution: RadialSolution) -> Stability:
     """
     line = asymptotic_line(solution)
     modes, mode_error = low_modes(solution)
-    highest = modes[np.argmax(modes.real)]
-    if highest.real > line.abscissa:
-        error = _SAFETY * mode_error * float(np.abs(highest))
-        return Stability(modes, line, float(highest.real), "mode", error)
-    return Stability(modes, line, line.abscissa, "line", line.error_estimate)
+    errors = _SAFETY * mode_error * np.abs(modes)
+    highest = np.argmax(modes.real)
+    abscissa = float(modes[highest].real)
+    if abscissa > line.abscissa:
+        return Stability(modes, errors, line, abscissa, "mode", float(errors[highest]))
+    return Stability(modes, errors, line, line.abscissa, "line", line.error_estimate)
 
 
 def low_modes(solution: RadialSolution) -> tuple[Complex, float]:

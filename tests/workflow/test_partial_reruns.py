@@ -64,7 +64,8 @@ def users_of(module: str) -> set[str]:
     def reaches(path, seen):
         for name in imports(path):
             package, *rest = name.split(".")
-            file = ROOT.joinpath({"hopper": "src"}.get(package, "scripts"), package, *rest)
+            folder = "src" if package in ("hopper", "hopper_cli") else "scripts"
+            file = ROOT.joinpath(folder, package, *rest)
             file = file.with_suffix(".py")
             if file.is_file() and name not in seen:
                 seen.add(name)

@@ -26,6 +26,7 @@ wildcard_constraints:
     mode="paper|physical",
     angle=r"[0-9.]+",
     chunk=r"\d+",
+    case="[a-z][a-z0-9_]*",
 
 
 def code_of(script):

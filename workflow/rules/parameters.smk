@@ -37,3 +37,8 @@ def transient(key):
 def curve(key):
     """A parameter of a figure over wall friction."""
     return lambda wildcards: config["friction_curves"][wildcards.figure][key]
+
+
+def own_hopper(wildcards):
+    """One of the hoppers of `cases`, by its name."""
+    return next(case for case in config["cases"] if case["name"] == wildcards.case)

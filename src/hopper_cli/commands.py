@@ -1,0 +1,189 @@
+"""What the subcommands answer, as text or JSON; files and plots on the way."""
+
+import json
+from argparse import Namespace
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
+from math import isfinite, radians
+from pathlib import Path
+from typing import Any
+
+from hopper import assessment
+from hopper.assessment import Quantity
+from hopper.domain import NoNeutralPointError
+from hopper.errors import ConvergenceError, HopperError, TangencyError, WallFrictionError
+from hopper.problem import as_geometry
+from hopper.radial import solve_radial
+from hopper_cli import answers, text
+from hopper_cli.answers import Part
+from hopper_cli.errors import UsageError
+from hopper_cli.files import write_csv
+from hopper_cli.inputs import Case, Wall
+from hopper_cli.rows import Row
+
+
+def answer(options: Namespace) -> str:
+    """Compute what the parsed options ask for, write the files, and return what to print.
+
+    Raises
+    ------
+    UsageError
+        If the wall is rougher than the material, or a file cannot be written.
+    HopperError
+        If there is no answer; the message says up to which friction there is one.
+    """
+    commands = {"radial": _radial, "stability": _stability, "neutral": _neutral}
+    return commands[options.command](options)
+
+
+def _radial(options: Namespace) -> str:
+    case = _case(options)
+    try:
+        found = assessment.assess_radial(case.hopper, case.wall.friction_angle)
+    except ConvergenceError as error:
+        limit = assessment.assess_limits(case.hopper).coefficient
+        raise _with_largest(error, "a radial solution", limit) from None
+    _write(options, case, found)
+    rows = answers.radial_rows(found)
+    limits = answers.limit_rows(found.limits)
+    end = found.limits.friction and found.limits.friction.end
+    if options.json:
+        main = [row for row in rows + limits if row.key not in ("mu_limit", "mu_tangency")]
+        return _json(
+            case.echoed(),
+            rows + limits,
+            limit_end=end,
+            error_estimate=answers.largest_relative_error(main),
+            notes=found.notes,
+        )
+    shown = [row for row in limits if row.key != "mu_limit" or end != "fold"]
+    return _text(
+        f"Radial solution: {case}",
+        text.number_cells(rows + shown),
+        [*found.notes, answers.radial_sentence(found)],
+    )
+
+
+def _stability(options: Namespace) -> str:
+    case = _case(options)
+    hopper = case.hopper
+    solution = solve_radial(hopper, case.wall.friction_angle)
+    try:
+        found = assessment.assess_stability(solution)
+    except (TangencyError, ConvergenceError) as error:
+        limit = assessment.tangency_coefficient(hopper)
+        raise _with_largest(error, "a verdict", limit) from None
+    _write(options, case, found)
+    rows = answers.stability_rows(found)
+    rows.append(answers.tangency_row(assessment.tangency_coefficient(hopper)))
+    modes = found.result.eigenvalues
+    if options.json:
+        return _json(
+            case.echoed(),
+            rows,
+            eigenvalues=[[mode.real, mode.imag] for mode in modes.tolist()],
+            governed_by=found.result.governed_by,
+            verdict=found.verdict,
+            error_estimate=found.abscissa.error,
+            errors={"eigenvalues": found.mode_errors.tolist()},
+        )
+    cells = [
+        (f"eigenvalue {number}", text.complex_with_error(mode, error))
+        for number, (mode, error) in enumerate(zip(modes, found.mode_errors, strict=True), 1)
+    ]
+    return _text(
+        f"Linear stability: {case}",
+        cells + text.number_cells(rows),
+        [answers.stability_sentence(found)],
+    )
+
+
+def _neutral(options: Namespace) -> str:
+    geometry, half_angle = as_geometry(options.geometry), radians(options.half_angle)
+    wall = Wall.of(options.mu, options.phi)
+    try:
+        found = assessment.assess_neutral(geometry, half_angle, wall.friction_angle)
+    except NoNeutralPointError as error:
+        limit = assessment.largest_neutral_coefficient(geometry, half_angle)
+        raise _with_largest(error, "a neutral delta", limit) from None
+    rows = answers.neutral_rows(found)
+    inputs = {"geometry": geometry, "half_angle_deg": options.half_angle, **asdict(wall)}
+    if options.json:
+        return _json(inputs, rows, governed_by=found.governed_by, error_estimate=rows[0].error)
+    return _text(
+        f"Neutral stability: {geometry}, half angle {options.half_angle:g} deg, {wall}",
+        text.number_cells(rows),
+        [answers.neutral_sentence(found)],
+    )
+
+
+def _case(options: Namespace) -> Case:
+    case = Case(
+        options.geometry,
+        options.model,
+        options.delta,
+        options.half_angle,
+        Wall.of(options.mu, options.phi),
+    )
+    try:
+        case.hopper.material.wall_angle(case.hopper.delta, case.wall.friction_angle)
+    except WallFrictionError as error:
+        option = "--mu" if options.phi is None else "--phi"
+        raise UsageError(f"argument {option}: {error}") from None
+    return case
+
+
+def _with_largest(error: HopperError, what: str, mu: Quantity | None) -> HopperError:
+    """Return the error with the largest friction that has ``what``."""
+    if mu is None:
+        return HopperError(f"{error}; not even a smooth wall has {what}")
+    return HopperError(f"{error}; the largest friction with {what} is {Wall.of(mu.value)}")
+
+
+def _text(title: str, cells: Sequence[tuple[str, str]], sentences: Sequence[str]) -> str:
+    return "\n".join([title, "", text.table(cells), "", *sentences])
+
+
+def _json(inputs: dict[str, Any], rows: Sequence[Row], **more: Any) -> str:
+    errors = {row.key: row.error for row in rows if row.error is not None}
+    errors |= more.pop("errors", {})
+    numbers = {row.key: row.value for row in rows}
+    document = {**inputs, **numbers, **more, "errors": errors}
+    return json.dumps(_finite(document), indent=2, allow_nan=False)
+
+
+def _finite(value: Any) -> Any:
+    """Return a JSON value with null for what is not finite: JSON has no NaN."""
+    if isinstance(value, dict):
+        return {key: _finite(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(item) for item in value]
+    return None if isinstance(value, float) and not isfinite(value) else value
+
+
+def _write(options: Namespace, case: Case, found: Part) -> None:
+    """Write the profile and the plot where they are asked for."""
+    if options.profile:
+        _guarded("--profile", options.profile, lambda path: _write_profile(path, case, found))
+    if options.plot:
+        from hopper_cli import figures
+
+        _guarded("--plot", options.plot, lambda path: figures.write(path, case, found))
+
+
+def _guarded(option: str, path: Path, write: Callable[[Path], None]) -> None:
+    try:
+        write(path)
+    except (OSError, RuntimeError) as error:  # netCDF4 raises the latter where the disk is full
+        raise UsageError(f"argument {option}: {path} cannot be written: {error}") from error
+
+
+def _write_profile(path: Path, case: Case, found: Part) -> None:
+    if path.suffix.lower() == ".nc":
+        from hopper_cli import datasets
+
+        datasets.write(path, case, found)
+        return
+    columns = answers.columns(found)
+    header = [f"{column.key} [{column.scale or column.units}]" for column in columns]
+    write_csv(path, header, zip(*(column.values.tolist() for column in columns), strict=True))

@@ -1,0 +1,5 @@
+"""Errors of the command; messages are one line and name the remedy."""
+
+
+class UsageError(Exception):
+    """An option is wrong, or a file cannot be written as asked; the message names the option."""

@@ -1,0 +1,39 @@
+"""The command's plots."""
+
+from pathlib import Path
+
+import matplotlib
+from matplotlib.figure import Figure
+
+from hopper.assessment import RadialAssessment
+from hopper_cli import answers, drawing
+from hopper_cli.answers import Part
+from hopper_cli.files import replacing
+from hopper_cli.inputs import Case
+
+_STYLE = {
+    "font.size": 8, "figure.titlesize": 8, "legend.frameon": False, "savefig.dpi": 200,
+    "pdf.fonttype": 42, "svg.hashsalt": "hopper",
+}  # fmt: skip
+# Nothing that varies between runs.
+_METADATA: dict[str, dict[str, None]] = {
+    ".png": {"Software": None},
+    ".pdf": {"CreationDate": None, "Producer": None, "Creator": None},
+    ".svg": {"Date": None, "Creator": None},
+}
+
+
+def write(path: Path, case: Case, found: Part) -> None:
+    """Plot the fields, or the spectrum."""
+    with matplotlib.rc_context(_STYLE):
+        if isinstance(found, RadialAssessment):
+            figure = Figure(figsize=(7.1, 2.6), layout="constrained")
+            fields = {column.key: column.values for column in answers.radial_columns(found)}
+            drawing.draw_fields(figure.subplots(1, 3), case.delta_deg, fields)
+        else:
+            figure = Figure(figsize=(7.1, 4.0), layout="constrained")
+            line = found.result.line.abscissa
+            drawing.draw_spectrum(figure.subplots(), found.spectrum, line)
+        figure.suptitle(str(case))
+        with replacing(path) as temporary:
+            figure.savefig(temporary, metadata=_METADATA[path.suffix.lower()])

@@ -1,0 +1,199 @@
+"""The shell command ``hopper``: options, exit codes, and one-line errors.
+
+Numerics, netCDF and plots are imported once the options are known to be right and ask for them.
+"""
+
+import argparse
+import os
+import sys
+from collections.abc import Callable, Sequence
+from importlib.util import find_spec
+from math import isfinite
+from pathlib import Path
+from typing import NoReturn
+
+from hopper import __version__
+from hopper.errors import HopperError, InvalidParameterError
+from hopper_cli.errors import UsageError
+from hopper_cli.files import FileError, checked
+
+_NO_ANSWER, _USAGE, _INTERRUPTED, _BROKEN_PIPE = 1, 2, 130, 141
+
+EXAMPLES = {
+    "radial": "hopper radial --geometry cone --delta 40 --half-angle 20 --mu 0.3",
+    "stability": "hopper stability --geometry cone --delta 40 --half-angle 20 --mu 0.3",
+    "neutral": "hopper neutral --geometry cone --half-angle 10 --phi 10",
+}
+_EXIT_CODES = """\
+exit codes:
+  0 answered, 1 there is no answer (the reason is on stderr), 2 wrong options or files"""
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> NoReturn:
+        raise UsageError(f"{message}; see {self.prog} --help")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command with the given arguments, default those of the shell; return its exit code.
+
+    The answer goes to stdout, errors to stderr as one line each.
+    """
+    try:
+        options = _parser().parse_args(arguments)
+        _check(options)
+        # Only now: the numerics take most of the time.
+        from hopper_cli import commands
+
+        print(commands.answer(options), flush=True)
+    except SystemExit as finished:  # --help and --version
+        return int(finished.code or 0)
+    except (UsageError, InvalidParameterError) as error:
+        return _fail(error, _USAGE)
+    except HopperError as error:
+        return _fail(error, _NO_ANSWER)
+    except KeyboardInterrupt:
+        return _INTERRUPTED
+    except OSError as error:
+        # Of stdout, which Python flushes once more when it ends: let that succeed.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        if isinstance(error, BrokenPipeError):
+            return _BROKEN_PIPE
+        return _fail(f"standard output: {error.strerror}", _NO_ANSWER)
+    return 0
+
+
+def _fail(error: Exception | str, code: int) -> int:
+    print(f"hopper: error: {error}", file=sys.stderr)
+    return code
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = _Parser(
+        prog="hopper",
+        description="Radial stress and velocity fields of a hopper, and their linear stability. "
+        "Angles are in degrees; stresses are in units of rho g r.",
+        epilog=_EXIT_CODES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    parser.add_argument("--version", action="version", version=f"hopper {__version__}")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    radial = _command(
+        commands, "radial", "the radial solution: stresses, psi, velocity, flow factor, limits"
+    )
+    stability = _command(
+        commands, "stability", "linear stability: low eigenvalues, asymptotic line, verdict"
+    )
+    for command, profile in ((radial, "fields over the polar angle"), (stability, "eigenvalues")):
+        _add_geometry(command)
+        command.add_argument(
+            "--model", choices=["mohr-coulomb", "von-mises"], default="mohr-coulomb",
+            help="yield condition, default %(default)s; von-mises: cones, radial fields only",
+        )  # fmt: skip
+        command.add_argument(
+            "--delta", type=_angle, required=True, metavar="DEG", help="angle of internal friction"
+        )
+        _add_half_angle_and_wall(command)
+        command.add_argument(
+            "--profile", type=Path, metavar="FILE", help=f"write {profile} to FILE.csv or FILE.nc"
+        )
+        command.add_argument(
+            "--plot", type=Path, metavar="FILE", help="draw them in FILE.png, .pdf or .svg"
+        )
+        command.add_argument("--force", action="store_true", help="overwrite existing files")
+    neutral = _command(commands, "neutral", "the internal friction at which stability changes")
+    _add_geometry(neutral)
+    _add_half_angle_and_wall(neutral)
+    return parser
+
+
+def _command(
+    commands: "argparse._SubParsersAction[_Parser]", name: str, summary: str
+) -> argparse.ArgumentParser:
+    command = commands.add_parser(
+        name,
+        help=summary,
+        description=f"Compute {summary}.",
+        epilog=f"example:\n  {EXAMPLES[name]}\n\n{_EXIT_CODES}",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )
+    command.add_argument("--json", action="store_true", help="print JSON; psi is in radians")
+    return command
+
+
+def _add_geometry(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--geometry", choices=["wedge", "cone"], required=True)
+
+
+def _add_half_angle_and_wall(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--half-angle", type=_angle, required=True, metavar="DEG", help="half opening angle"
+    )
+    wall = command.add_mutually_exclusive_group(required=True)
+    wall.add_argument("--mu", type=_coefficient, help="coefficient of wall friction, tan(phi)")
+    wall.add_argument("--phi", type=_wall_angle, metavar="DEG", help="angle of wall friction")
+
+
+def _number(text: str, meaning: str, inside: Callable[[float], bool]) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number: give {meaning}") from None
+    if not (isfinite(value) and inside(value)):
+        raise argparse.ArgumentTypeError(f"{text} is out of range: give {meaning}")
+    return value
+
+
+def _angle(text: str) -> float:
+    return _number(text, "degrees between 0 and 90, both excluded", lambda value: 0 < value < 90)
+
+
+def _wall_angle(text: str) -> float:
+    return _number(text, "degrees from 0 to below 90", lambda value: 0 <= value < 90)
+
+
+def _coefficient(text: str) -> float:
+    return _number(text, "a number from 0 to 1000", lambda value: 0 <= value <= 1000)
+
+
+def _check(options: argparse.Namespace) -> None:
+    """Find what the parser cannot: options that do not go together, files, missing libraries.
+
+    Raises
+    ------
+    UsageError
+        If an option is wrong.
+    """
+    if options.command == "neutral":
+        return
+    if options.model == "von-mises" and options.geometry == "wedge":
+        raise UsageError(
+            "argument --model: von-mises is formulated for cones only: use --geometry cone or "
+            "--model mohr-coulomb"
+        )
+    if options.model == "von-mises" and options.command == "stability":
+        raise UsageError(
+            "argument --model: stability is formulated for mohr-coulomb only: use --model "
+            "mohr-coulomb"
+        )
+    for option, path, suffixes in (
+        ("--profile", options.profile, (".csv", ".nc")),
+        ("--plot", options.plot, (".png", ".pdf", ".svg")),
+    ):
+        if path is None:
+            continue
+        try:
+            checked(path, suffixes, overwrite=options.force)
+        except FileError as error:
+            raise UsageError(f"argument {option}: {error}") from None
+        library = {".csv": "csv", ".nc": "xarray"}.get(path.suffix.lower(), "matplotlib")
+        if find_spec(library) is None:
+            raise UsageError(
+                f"argument {option}: {path.suffix} needs {library}: pip install 'hopper[workflow]'"
+            )
+
+
+if __name__ == "__main__":
+    sys.exit(main())
