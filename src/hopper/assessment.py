@@ -239,23 +239,22 @@ def assess(hopper: Hopper, friction_angle: float) -> Assessment:
     try:
         radial = assess_radial(hopper, friction_angle)
     except (NoRadialSolutionError, NonPositiveStressError, ConvergenceError) as error:
-        return Assessment(assess_limits(hopper), None, None, _outcome(error), str(error))
+        return Assessment(assess_limits(hopper), None, None, _OUTCOMES[type(error)], str(error))
     try:
         found = assess_stability(radial.solution)
-    except HopperError as error:
-        return Assessment(radial.limits, radial, None, _outcome(error), str(error))
+    except (TangencyError, ConvergenceError, InvalidParameterError) as error:
+        return Assessment(radial.limits, radial, None, _OUTCOMES[type(error)], str(error))
     return Assessment(radial.limits, radial, found, found.verdict, "")
 
 
-def _outcome(error: HopperError) -> Outcome:
-    outcomes: dict[type[HopperError], Outcome] = {
-        NoRadialSolutionError: "no_radial_solution",
-        NonPositiveStressError: "non_positive_stress",
-        ConvergenceError: "not_converged",
-        TangencyError: "tangent_characteristic",
-        InvalidParameterError: "not_formulated",
-    }
-    return outcomes[type(error)]
+_OUTCOMES: dict[type[HopperError], Outcome] = {
+    NoRadialSolutionError: "no_radial_solution",
+    NonPositiveStressError: "non_positive_stress",
+    ConvergenceError: "not_converged",
+    TangencyError: "tangent_characteristic",
+    # The only one that stability knows is a material it has no equations for.
+    InvalidParameterError: "not_formulated",
+}
 
 
 def assess_limits(hopper: Hopper) -> Limits:
@@ -315,19 +314,20 @@ def assess_radial(hopper: Hopper, friction_angle: float) -> RadialAssessment:
 
 
 def describe_radial(solution: RadialSolution) -> RadialAssessment:
-    """Return a radial solution in numbers."""
+    """Return a radial solution of the physical branch in numbers."""
     notes = []
     hopper = solution.hopper
     sigma_axis, sigma_wall, psi_max, theta_psi_max, factor = _with_errors(solution, _numbers)
     psi_wall = hopper.material.wall_angle(hopper.delta, solution.friction_angle)
     velocity = u_wall = solutions = None
     try:
-        velocity = solve_velocity(solution)
+        known = solve_velocity(solution)
         (log_u,) = _with_errors(solution, _log_u_wall)
-        error = velocity.wall * (log_u.error + velocity.error_estimate)
-        u_wall = Quantity(velocity.wall, error)
     except (SingularVelocityError, ConvergenceError) as unknown:
         notes.append(str(unknown))
+    else:
+        velocity = known
+        u_wall = Quantity(known.wall, known.wall * (log_u.error + known.error_estimate))
     limits = assess_limits(hopper)
     if limits.friction is None:
         notes.append("the largest friction with a radial solution is not resolved")
@@ -382,8 +382,8 @@ def _with_errors(
 def _propagated(solution: RadialSolution, change: Callable[[RadialSolution], Array]) -> Array:
     """Return the sum of the changes that the error of the fields makes, to first order.
 
-    The family's tangent is among the directions: near a fold the rounding of psi_w, which then
-    hardly determines the solution, moves it along the family.
+    The family's tangent is among the directions: near a fold psi_w hardly determines the solution,
+    so that rounding moves it along the family.
     """
     member = solution.member
     size, tau = member.grid.size, max(1.0, abs(member.tau))
@@ -394,8 +394,9 @@ def _propagated(solution: RadialSolution, change: Callable[[RadialSolution], Arr
     directions[2, -1] = tau
     steepest = max(np.abs(member.tangent[:-1]).max(), abs(member.tangent[-1]) / tau)
     directions[3] = member.tangent / steepest
-    rounding = _wall_angle_rounding(solution)
-    errors = np.full(4, solution.error_estimate)
+    rounding = _ROUNDING * size
+    errors = np.full(4, solution.error_estimate + rounding)
+    rounding += _wall_angle_rounding(solution)
     errors[3] += rounding / max(abs(directions[3, -2]), rounding**0.5)
     shifted = (
         replace(solution, member=replace(member, u=member.u + _SHIFT * direction))
@@ -424,6 +425,8 @@ def assess_stability(solution: RadialSolution) -> StabilityAssessment:
     result, mode_errors, abscissa = _abscissa(solution)
     low = result.eigenvalues
     kept, changes = _resolved_modes(solution)
+    # What rounding and the fields leave is alike for all modes, relative to their modulus.
+    changes = changes + np.abs(kept) * np.max(mode_errors / np.abs(low))
     further = (kept.imag >= 0) & (np.abs(kept) > (1 + _CHANGE) * np.abs(low[-1]))
     return StabilityAssessment(
         result,
@@ -461,6 +464,8 @@ def _resolved_modes(solution: RadialSolution) -> tuple[Complex, Array]:
     except ConvergenceError:
         return np.empty(0, complex), np.empty(0)
     kept = found.kept & (fine.half == HALVES.index("physical"))
+    # Both of a pair or none: the filter's thresholds see them apart by rounding.
+    kept &= np.isin(fine.eigenvalues.conj(), fine.eigenvalues[kept])
     modes = fine.eigenvalues[kept]
     return modes, found.change[kept] * np.abs(modes)
 

@@ -18,7 +18,8 @@ def rounded(value: float, error: float | None) -> str:
     digits = _DIGITS
     if error:
         digits = min(_DIGITS, max(1, 1 + floor(log10(abs(value))) - floor(log10(error))))
-    return f"{value:#.{digits}g}".removesuffix(".")
+    trailing_zeros = "#" if digits > 1 else ""
+    return f"{value:{trailing_zeros}.{digits}g}".removesuffix(".")
 
 
 def with_error(value: float, error: float | None) -> str:
