@@ -92,6 +92,21 @@ def test_what_ends_the_solutions(hopper, end):
     assert (limits.tangency is None) == (hopper.material == VON_MISES)
 
 
+def test_a_narrow_hopper_has_limits():
+    for half_angle in (1, 0.2):
+        limits = limits_of(make("cone", 45, half_angle))
+        assert limits.friction.end == "axis"
+        assert abs(limits.coefficient.value - tan(limits.mass_flow.value)) < 1e-14
+
+
+def test_limits_that_are_not_resolved_are_noted():
+    found = radial_numbers(make("wedge", 88, 38), 0.1)
+    assert found.limits.friction is None
+    assert found.limits.coefficient is None
+    assert found.notes == ("the largest friction with a radial solution is not resolved",)
+    assert found.sigma_wall.error < 1e-10
+
+
 def test_the_hopper_of_figure_3_2():
     found = radial_numbers(make("cone", 30, 30), 0.356)
     assert found.psi_max.value == pytest.approx(0.7316, abs=6e-5)

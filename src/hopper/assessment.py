@@ -58,8 +58,8 @@ _NODES, _COARSE_NODES, _CHANGE = 96, 64, 1e-6
 _TRIPS, _SAMPLES = 4, 64
 # Steps, in radians: for slopes over an angle, and in phi along the neutral curve.
 _STEP, _PHI_STEP = 1e-6, 0.035
-# Error of the end of the neutral curve, radians.
-_END_ERROR = 1e-8
+# Error of the end of the neutral curve: 1e-6 degrees.
+_END_ERROR = pi / 180e6
 
 
 @dataclass(frozen=True)

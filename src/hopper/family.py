@@ -7,6 +7,7 @@ the family ends there.
 """
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise, takewhile
@@ -17,7 +18,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from hopper.critical_point import limiting_solution
-from hopper.errors import ConvergenceError, NoRadialSolutionError
+from hopper.errors import ConvergenceError, InvalidParameterError, NoRadialSolutionError
 from hopper.mass_flow import limiting_wall_angle
 from hopper.problem import Hopper
 from hopper.radial_collocation import (
@@ -82,7 +83,8 @@ def smooth_wall_member(hopper: Hopper) -> Member:
     """
     smooth = Closure("psi_wall", 0.0)
     member, angle = None, hopper.half_angle
-    while member is None and angle > radians(1):
+    narrowest = min(angle, radians(1))
+    while member is None and angle >= narrowest:
         narrow = Hopper(hopper.geometry, hopper.delta, angle, hopper.material)
         grid = half_grid(_SIZE, angle)
         member = newton(narrow, grid, smooth, crude_start(narrow, grid, 0.0))
@@ -203,9 +205,11 @@ def friction_limit_from(member: Member) -> FrictionLimit:
         return _wall_end(last)
     reached = law.friction_angle(hopper.delta, last.psi_wall)
     if last.tau * hopper.half_angle > _FREE_AXIS:
-        wall = limiting_wall_angle(hopper)
-        phi = law.friction_angle(hopper.delta, wall)
-        return FrictionLimit(phi, "axis", last.tau, wall, abs(phi - reached))
+        # Other hoppers than cones with a mass-flow limit become singular all the same.
+        with suppress(InvalidParameterError):
+            wall = limiting_wall_angle(hopper)
+            phi = law.friction_angle(hopper.delta, wall)
+            return FrictionLimit(phi, "axis", last.tau, wall, abs(phi - reached))
     return _singular_end(last)
 
 

@@ -42,7 +42,7 @@ def _radial(options: Namespace) -> str:
         found = assessment.assess_radial(case.hopper, case.wall.friction_angle)
     except ConvergenceError as error:
         limit = assessment.assess_limits(case.hopper).coefficient
-        raise _with_largest(error, "a radial solution", limit) from None
+        raise _explained(error, "a radial solution", limit) from None
     _write(options, case, found)
     rows = answers.radial_rows(found)
     limits = answers.limit_rows(found.limits)
@@ -72,7 +72,9 @@ def _stability(options: Namespace) -> str:
         found = assessment.assess_stability(solution)
     except (TangencyError, ConvergenceError) as error:
         limit = assessment.tangency_coefficient(hopper)
-        raise _with_largest(error, "a verdict", limit) from None
+        if limit is None and assessment.assess(hopper, 0.0).outcome == "tangent_characteristic":
+            raise HopperError(f"{error}; not even a smooth wall has a verdict") from None
+        raise _explained(error, "a verdict", limit) from None
     _write(options, case, found)
     rows = answers.stability_rows(found)
     rows.append(answers.tangency_row(assessment.tangency_coefficient(hopper)))
@@ -105,7 +107,7 @@ def _neutral(options: Namespace) -> str:
         found = assessment.assess_neutral(geometry, half_angle, wall.friction_angle)
     except NoNeutralPointError as error:
         limit = assessment.largest_neutral_coefficient(geometry, half_angle)
-        raise _with_largest(error, "a neutral delta", limit) from None
+        raise _explained(error, "a neutral delta", limit) from None
     rows = answers.neutral_rows(found)
     inputs = {"geometry": geometry, "half_angle_deg": options.half_angle, **asdict(wall)}
     if options.json:
@@ -133,10 +135,10 @@ def _case(options: Namespace) -> Case:
     return case
 
 
-def _with_largest(error: HopperError, what: str, mu: Quantity | None) -> HopperError:
-    """Return the error with the largest friction that has ``what``."""
+def _explained(error: HopperError, what: str, mu: Quantity | None) -> HopperError:
+    """Return the error with the largest friction that has ``what``, where that is known."""
     if mu is None:
-        return HopperError(f"{error}; not even a smooth wall has {what}")
+        return error
     return HopperError(f"{error}; the largest friction with {what} is {Wall.of(mu.value)}")
 
 
