@@ -417,7 +417,7 @@ def test_a_missing_library_is_named_before_the_work(run, tmp_path, monkeypatch):
     monkeypatch.setattr("hopper_cli.main.find_spec", lambda name: None)
     code, _, err = run(f"radial {STEEL} --plot {tmp_path / 'out.png'}")
     assert code == 2
-    assert is_one_error(err, "argument --plot: .png needs matplotlib: pip install")
+    assert is_one_error(err, "argument --plot: .png needs matplotlib: install hopper[workflow]")
 
 
 @pytest.mark.parametrize("option", ["--profile old.csv", "--profile old.nc", "--plot old.png"])

@@ -132,15 +132,14 @@ _ENDS = {
 
 def radial_sentence(radial: RadialAssessment) -> str:
     """Return the answer in words."""
-    limits, words = radial.limits, ["A radial solution exists"]
+    limits, sentence = radial.limits, "A radial solution exists"
     if limits.friction is not None and limits.coefficient is not None:
-        end = _ENDS[limits.friction.end]
-        words.append(f"up to mu = {limits.coefficient.value:.6g}, {end}")
+        sentence += f" up to mu = {limits.coefficient.value:.6g}, {_ENDS[limits.friction.end]}"
     if limits.mass_flow is not None:
         flows = radial.solution.friction_angle <= limits.mass_flow.value
         limit = f"the mass-flow limit, phi = {degrees(limits.mass_flow.value):.6g} deg"
-        words.append(f"; the wall is {'within' if flows else 'beyond'} {limit}")
-    return " ".join(words).replace(" ;", ";") + "."
+        sentence += f"; the wall is {'within' if flows else 'beyond'} {limit}"
+    return f"{sentence}."
 
 
 def stability_sentence(found: StabilityAssessment) -> str:

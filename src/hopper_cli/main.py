@@ -24,6 +24,7 @@ EXAMPLES = {
     "stability": "hopper stability --geometry cone --delta 40 --half-angle 20 --mu 0.3",
     "neutral": "hopper neutral --geometry cone --half-angle 10 --phi 10",
 }
+_LIBRARIES: dict[str, list[str]] = {".csv": [], ".nc": ["xarray", "netCDF4"]}
 _EXIT_CODES = """\
 exit codes:
   0 answered, 1 there is no answer (the reason is on stderr), 2 wrong options or files"""
@@ -188,11 +189,11 @@ def _check(options: argparse.Namespace) -> None:
             checked(path, suffixes, overwrite=options.force)
         except FileError as error:
             raise UsageError(f"argument {option}: {error}") from None
-        library = {".csv": "csv", ".nc": "xarray"}.get(path.suffix.lower(), "matplotlib")
-        if find_spec(library) is None:
-            raise UsageError(
-                f"argument {option}: {path.suffix} needs {library}: pip install 'hopper[workflow]'"
-            )
+        for library in _LIBRARIES.get(path.suffix.lower(), ["matplotlib"]):
+            if find_spec(library) is None:
+                raise UsageError(
+                    f"argument {option}: {path.suffix} needs {library}: install hopper[workflow]"
+                )
 
 
 if __name__ == "__main__":
