@@ -20,6 +20,7 @@ from hopper.transient import (
     match_kept,
     modal_basis,
     modal_matrix,
+    oscillation,
     propagator_norm,
 )
 from tests.witnesses_modes import (
@@ -293,3 +294,29 @@ def test_bad_times(elapsed):
 def test_no_bases():
     with pytest.raises(InvalidParameterError, match="no modes: give the basis of at least one"):
         propagator_norm([], 1.0)
+
+
+# Oscillation.
+
+
+@pytest.mark.parametrize("stretch", [1.0, 3.0])
+def test_oscillation_of_one_pair(stretch):
+    # exp(-t M) is a rotation in coordinates stretched by a factor: its norm swings between 1 and
+    # that factor, twice a period.
+    basis = ModalBasis(np.array([-0.3 + 2j, -0.3 - 2j]), np.diag([1.0, stretch]))
+    amplitude, error = oscillation([basis], 1.0, np.pi / 2, 401)
+    times = 1.0 + np.linspace(0, np.pi / 2, 4001)
+    norms = [np.linalg.norm(expm(t * (modal_matrix(basis) + 0.3 * np.eye(2))), 2) for t in times]
+    assert np.ptp(norms) == pytest.approx(stretch - 1, abs=1e-3)
+    assert amplitude == pytest.approx(np.ptp(norms) / np.mean(norms), abs=1e-2 * stretch)
+    assert error < 1e-2 * stretch
+
+
+def test_oscillation_does_not_depend_on_the_rate_of_growth():
+    slow, fast = (
+        ModalBasis(np.array([rate + 5j, rate - 5j]), np.array([[1.0, 0.4], [0.0, 2.0]]))
+        for rate in (-1.0, 2.0)
+    )
+    assert oscillation([slow], 0.5, 2.0, 101)[0] == pytest.approx(
+        oscillation([fast], 0.5, 2.0, 101)[0], rel=1e-10
+    )

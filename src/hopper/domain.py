@@ -24,13 +24,14 @@ from hopper.errors import (
     TangencyError,
 )
 from hopper.family import family, friction_limit, neighbour
+from hopper.linearisation import tangency_angle
 from hopper.problem import Geometry, Hopper, is_real, require_angle
 from hopper.radial import solution_of, solve_radial
 from hopper.radial_collocation import Closure, Member
 from hopper.stability import stability
 
 # Root finding, in radians: well below 1e-6 degrees.
-_TOLERANCE = 1e-10
+ROOT_TOLERANCE = 1e-10
 _END_TOLERANCE = 3e-9
 _SECANT_STEPS = 12
 _PROBE = 1e-6
@@ -73,7 +74,7 @@ def _friction_between(below: Member, above: Member, psi: float) -> float | None:
     law, delta = below.hopper.material, below.hopper.delta
     if below.psi_wall < psi <= above.psi_wall:
         at_wall = neighbour(below, Closure("psi_wall", psi))
-        if _largest_psi(at_wall) <= psi + _TOLERANCE:
+        if _largest_psi(at_wall) <= psi + ROOT_TOLERANCE:
             return law.friction_angle(delta, psi) if at_wall.tau > 0 else None
     unknown = above.closure.unknown
     low, high = (float(getattr(member, unknown)) for member in (below, above))
@@ -95,7 +96,7 @@ def tangency_friction(hopper: Hopper) -> float | None:
     At the wall this is mu = sin(delta) cos(delta) / (1 + sin(delta)**2). None as
     :func:`friction_reaching`.
     """
-    return friction_reaching(hopper, pi / 4 - hopper.delta / 2)
+    return friction_reaching(hopper, tangency_angle(hopper.delta))
 
 
 def singular_velocity_friction(hopper: Hopper) -> float | None:
@@ -137,7 +138,7 @@ def neutral_delta(
             f"{degrees(half_angle):.6g} deg: stability ends at the tangency before it is lost; "
             "lower the wall friction"
         )
-    return float(brentq(growth, *bracket, xtol=_TOLERANCE))
+    return float(brentq(growth, *bracket, xtol=ROOT_TOLERANCE))
 
 
 def _growth(
@@ -164,7 +165,7 @@ def _secant(growth: Callable[[float], float], guess: float) -> float | None:
             for _ in range(_SECANT_STEPS):
                 slope = (at_here - at_before) / (here - before)
                 following = here - at_here / slope
-                if abs(following - here) < _TOLERANCE:
+                if abs(following - here) < ROOT_TOLERANCE:
                     return following
                 before, at_before = here, at_here
                 here, at_here = following, growth(following)

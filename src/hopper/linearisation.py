@@ -144,6 +144,11 @@ def _coefficients(
     )
 
 
+def tangency_angle(delta: float) -> float:
+    """Return the psi (radians) at which a characteristic is tangent to the arcs r = const."""
+    return pi / 4 - delta / 2
+
+
 @lru_cache(maxsize=8)
 def require_no_tangency(solution: RadialSolution) -> None:
     """Check that psi stays below pi/4 - delta/2.
@@ -153,7 +158,7 @@ def require_no_tangency(solution: RadialSolution) -> None:
     TangencyError
         If it does not.
     """
-    limit = pi / 4 - solution.hopper.delta / 2
+    limit = tangency_angle(solution.hopper.delta)
     if solution.psi.max() < _NEAR * limit:
         return
     finer = half_grid(4 * solution.theta.size, solution.hopper.half_angle)

@@ -184,6 +184,23 @@ def solve_radial(
     return RadialSolution(hopper, friction_angle, branch, member)
 
 
+def radial_solutions(hopper: Hopper, friction_angle: float) -> list[RadialSolution]:
+    """Return every radial stress field for the given wall friction (radians): one, or two.
+
+    The physical one first.
+
+    Raises
+    ------
+    HopperError
+        As :func:`solve_radial` for the physical branch.
+    """
+    physical = solve_radial(hopper, friction_angle)
+    try:
+        return [physical, solve_radial(hopper, friction_angle, "second")]
+    except NoRadialSolutionError:
+        return [physical]
+
+
 def solve_radial_family(hopper: Hopper, sigma_axis: float) -> RadialSolution:
     """Return the member of the family with average stress ``sigma_axis`` on the axis.
 

@@ -212,3 +212,28 @@ def _norms(basis: ModalBasis, times: Array) -> Iterator[float]:
         grown[real::2] = factor.real * rows + factor.imag * columns
         grown[real + 1 :: 2] = factor.real * columns - factor.imag * rows
         yield float(np.linalg.norm(basis.factor @ grown, 2))
+
+
+def oscillation(
+    bases: Sequence[ModalBasis], start: float, length: float, points: int
+) -> tuple[float, float]:
+    """Return how much exp(t alpha) ||exp(-t M)|| varies over [start, start + length] of -t.
+
+    Parameters
+    ----------
+    bases : sequence of ModalBasis
+        Of one or both parities.
+    start, length : float
+        Not negative; ``length`` should cover a few periods.
+    points : int
+        Number of times, at least 3.
+
+    Returns
+    -------
+    amplitude, error : float
+        Largest minus least over the mean, and its change from half as many times.
+    """
+    elapsed = np.linspace(start, start + length, points)
+    relative = propagator_norm(bases, elapsed) * np.exp(-abscissa(bases) * elapsed)
+    fine, coarse = (float(np.ptp(x) / np.mean(x)) for x in (relative, relative[::2]))
+    return fine, abs(fine - coarse)

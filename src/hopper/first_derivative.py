@@ -1,0 +1,37 @@
+"""The Chebyshev matrix of d/dx with a boundary condition: what M of (4.2) is not like.
+
+The operator has no eigenvalues, those of its matrices are artefacts of rounding and mesh [TT].
+
+References
+----------
+.. [TT] L. N. Trefethen, M. R. Trummer, An instability phenomenon in spectral methods, SIAM J.
+   Numer. Anal. 24 (1987).
+"""
+
+import numpy as np
+
+from hopper import chebyshev
+from hopper.chebyshev import Array
+from hopper.pseudospectrum import eigenvalue_condition_numbers, schur_form
+from hopper.spectrum import relative_changes
+
+
+def first_derivative_matrix(n: int) -> Array:
+    """Return d/dx on ``n`` nodes for functions that vanish at x = 1, shape (n - 1, n - 1)."""
+    return chebyshev.differentiation_matrix(n)[:-1, :-1]
+
+
+def largest_condition(n: int) -> float:
+    """Return the largest condition number of an eigenvalue of the matrix on ``n`` nodes."""
+    return float(eigenvalue_condition_numbers(schur_form(first_derivative_matrix(n)))[1].max())
+
+
+def agreeing_eigenvalues(n: int, coarse_n: int, tolerance: float) -> int:
+    """Return how many eigenvalues on ``n`` nodes have a one-to-one partner on ``coarse_n``.
+
+    Within the relative distance ``tolerance``.
+    """
+    fine, coarse = (
+        np.linalg.eigvals(first_derivative_matrix(size)).astype(complex) for size in (n, coarse_n)
+    )
+    return int(np.sum(relative_changes(fine, coarse, "one-to-one") < tolerance))
