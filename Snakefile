@@ -1,6 +1,7 @@
 """Gremaud, Matthews, Shearer (2000): every figure of the paper, from its equations.
 
-Targets: `snakemake` makes all figures, `snakemake figures/fig_3_1.png` one of them.
+Targets: `snakemake` makes all figures and the claims ledger, `snakemake figures/fig_3_1.png` or
+`snakemake results/claims.html` one of them.
 """
 
 
@@ -20,9 +21,11 @@ include: "workflow/rules/spectrum.smk"
 include: "workflow/rules/transient.smk"
 include: "workflow/rules/domain.smk"
 include: "workflow/rules/cases.smk"
+include: "workflow/rules/claims.smk"
 
 
 rule all:
     default_target: True
     input:
         expand("figures/{figure}.{suffix}", figure=FIGURES, suffix=["png", "pdf"]),
+        LEDGER,

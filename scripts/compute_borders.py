@@ -7,7 +7,7 @@ from typing import Any, get_args
 import numpy as np
 import xarray as xr
 
-from hopper.domain import borders, neutral_curve
+from hopper.domain import ROOT_TOLERANCE, borders, neutral_curve
 from hopper.family import End
 from hopper.problem import Hopper, as_geometry
 from hopper.radial import solve_radial
@@ -51,6 +51,9 @@ def compute_borders(
             ),
             "neutral_phi": fields.angle(
                 "point", np.degrees(neutral.friction_angle), "wall friction of neutral stability"
+            ),
+            "neutral_error": fields.angle(
+                (), np.degrees(ROOT_TOLERANCE), "tolerance of neutral_delta"
             ),
             "check_point": fields.number("check", checked, "index of a checked neutral point"),
             **paper_checks.check_variables("check", solutions, **meshes),

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import grimp
 
-PACKAGES = {"hopper": "src", "hopper_cli": "src", "support": "scripts"}
+PACKAGES = {"hopper": "src", "hopper_cli": "src", "support": "scripts", "claims": "scripts"}
 
 
 def let_scripts_import(root: Path) -> None:

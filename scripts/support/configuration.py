@@ -24,17 +24,30 @@ def check(config: Mapping[str, Any], schema_path: str | Path) -> None:
     Raises
     ------
     ConfigurationError
-        For the most relevant violation of the schema, or a value that is not finite.
+        For the most relevant violation of the schema, a value that is not finite, or a wrong order.
     """
-    for key, value in _leaves(config, ""):
-        if isinstance(value, float) and not math.isfinite(value):
-            raise ConfigurationError(f"config key '{key}' is {value}: give a finite number")
-    schema = yaml.safe_load(Path(schema_path).read_text(encoding="utf-8"))
-    error = best_match(jsonschema.Draft202012Validator(schema).iter_errors(config))
-    if error is not None:
-        raise ConfigurationError(_explain(error, schema_path))
+    require_schema(config, schema_path)
     _check_order(config)
     _check_cases(config["cases"])
+
+
+def require_schema(
+    data: Mapping[str, Any], schema_path: str | Path, source: str = "config"
+) -> None:
+    """Validate what a YAML file, called ``source`` in messages, holds against a schema.
+
+    Raises
+    ------
+    ConfigurationError
+        For the most relevant violation, or a value that is not finite.
+    """
+    for key, value in _leaves(data, ""):
+        if isinstance(value, float) and not math.isfinite(value):
+            raise ConfigurationError(f"{source} key '{key}' is {value}: give a finite number")
+    schema = yaml.safe_load(Path(schema_path).read_text(encoding="utf-8"))
+    error = best_match(jsonschema.Draft202012Validator(schema).iter_errors(data))
+    if error is not None:
+        raise ConfigurationError(f"{source} {_explain(error, schema_path)}")
 
 
 def _check_order(config: Mapping[str, Any]) -> None:
@@ -89,4 +102,4 @@ def _explain(error: ValidationError, schema_path: str | Path) -> str:
     meaning = error.schema.get("description", "") if isinstance(error.schema, Mapping) else ""
     message = error.message if len(error.message) < 200 else error.message[:200] + " ..."
     hint = f" ({meaning})" if meaning else ""
-    return f"config key '{key}': {message}{hint}; see {Path(schema_path).name}"
+    return f"key '{key}': {message}{hint}; see {Path(schema_path).name}"

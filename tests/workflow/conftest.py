@@ -21,7 +21,7 @@ PARTS = ("Snakefile", "config.yaml", "workflow", "scripts", "src", "envs", "prof
 # Numbers that make every rule run in about a second.
 COARSE: dict[str, Any] = {
     "fig_jenike.friction_angles_deg.step": 10,
-    "smooth_wall.half_angles_deg.step": 11,
+    "smooth_wall.half_angles_deg.step": 9,
     "spectra.fig_4_2.nodes": 80,
     "spectra.fig_4_2.coarse_nodes": 40,
     "spectra.fig_4_2.exact_modes": 12,
@@ -40,9 +40,12 @@ COARSE: dict[str, Any] = {
     "borders.neutral_step_deg": 4,
     "borders.delta_deg.points": 5,
     "borders.check": CHECK,
-    "domain_angle.half_angles_deg": [10],
+    "domain_angle.half_angles_deg": [10, 30],
     "domain_angle.neutral_step_deg": 4,
     "domain_angle.tangency_points": 5,
+    "claims.models.deltas_deg.step": 20,
+    "claims.models.psi_points": 4,
+    "claims.linear.windows.points": 11,
 }
 
 

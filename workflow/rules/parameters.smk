@@ -42,3 +42,9 @@ def curve(key):
 def own_hopper(wildcards):
     """One of the hoppers of `cases`, by its name."""
     return next(case for case in config["cases"] if case["name"] == wildcards.case)
+
+
+def mesh_of(spectrum):
+    """Nodes of both meshes and tolerance of the filter of one of the discrete spectra."""
+    case = config["spectra"][spectrum]
+    return {name: case[name] for name in ["nodes", "coarse_nodes", "tolerance"]}

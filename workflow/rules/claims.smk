@@ -1,0 +1,110 @@
+# =================================================================================================
+# The verdict: what the paper claims, held against the artifacts
+# =================================================================================================
+
+from claims.words import paths_of, read_claims
+
+CLAIMS = code_graph.relative(ROOT / "resources/claims.yaml")
+CLAIMS_SCHEMA = code_graph.relative(ROOT / "workflow/schemas/claims.schema.yaml")
+TEMPLATES = {
+    kind: code_graph.relative(ROOT / f"workflow/report/claims.{kind}.j2") for kind in ["html", "md"]
+}
+LEDGER = ["results/claims.csv", "results/claims.html"]
+HOPPER = config["radial"]["fig_3_2"]
+LINEAR = config["claims"]["linear"]
+
+try:
+    JUDGED = paths_of(read_claims(CLAIMS, CLAIMS_SCHEMA))
+except configuration.ConfigurationError as error:
+    raise WorkflowError(str(error)) from None
+
+
+rule compute_model_checks:
+    input:
+        code=code_of("compute_model_checks"),
+    output:
+        artifact="results/checks/models.nc",
+        provenance="results/checks/models.provenance.json",
+    log:
+        "logs/compute_model_checks.log",
+    benchmark:
+        "logs/compute_model_checks.benchmark.tsv"
+    conda:
+        "../../envs/hopper.yaml"
+    threads: 1
+    params:
+        **config["claims"]["models"],
+        geometry=HOPPER["geometry"],
+        delta_deg=HOPPER["delta_deg"],
+        half_angle_deg=HOPPER["half_angle_deg"],
+        models=HOPPER["models"],
+        mu=sorted({mu for case in config["radial"].values() for mu in case["mu"]}),
+    script:
+        "../../scripts/compute_model_checks.py"
+
+
+rule compute_linear_checks:
+    input:
+        wedge=f"results/spectrum/{LINEAR['spectrum']}/wedge.nc",
+        cone=f"results/spectrum/{LINEAR['spectrum']}/cone.nc",
+        code=code_of("compute_linear_checks"),
+    output:
+        artifact="results/checks/linear.nc",
+        provenance="results/checks/linear.provenance.json",
+    log:
+        "logs/compute_linear_checks.log",
+    benchmark:
+        "logs/compute_linear_checks.benchmark.tsv"
+    conda:
+        "../../envs/hopper.yaml"
+    threads: 1
+    params:
+        **hopper_of(LINEAR["spectrum"]),
+        **mesh_of(LINEAR["spectrum"]),
+        printed_at=LINEAR["printed_at"],
+        smooth=LINEAR["smooth"],
+        windows=LINEAR["windows"],
+        kept_modes=PSEUDO["modes"],
+    script:
+        "../../scripts/compute_linear_checks.py"
+
+
+rule judge_claims:
+    input:
+        claims=CLAIMS,
+        schema=CLAIMS_SCHEMA,
+        paths=JUDGED,
+        code=code_of("judge_claims"),
+    output:
+        table="results/claims.csv",
+    log:
+        "logs/judge_claims.log",
+    benchmark:
+        "logs/judge_claims.benchmark.tsv"
+    conda:
+        "../../envs/hopper.yaml"
+    threads: 1
+    script:
+        "../../scripts/judge_claims.py"
+
+
+rule render_claims:
+    input:
+        table="results/claims.csv",
+        claims=CLAIMS,
+        schema=CLAIMS_SCHEMA,
+        html_template=TEMPLATES["html"],
+        markdown_template=TEMPLATES["md"],
+        code=code_of("render_claims"),
+    output:
+        html=report("results/claims.html", caption="../report/claims.rst", category="Claims"),
+        markdown="results/claims.md",
+    log:
+        "logs/render_claims.log",
+    benchmark:
+        "logs/render_claims.benchmark.tsv"
+    conda:
+        "../../envs/hopper.yaml"
+    threads: 1
+    script:
+        "../../scripts/render_claims.py"
