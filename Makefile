@@ -53,9 +53,9 @@ test-report: .venv/test.stamp
 bench: .venv/test.stamp
 	@$(BIN)/python -m benchmarks
 
-# Copies of the figures for the README.
+# Copies of the figures and of the claims ledger for the README.
 gallery: figures
-	@mkdir -p docs/gallery && cp figures/*.png docs/gallery/
+	@mkdir -p docs/gallery && cp figures/*.png docs/gallery/ && cp results/claims.md docs/
 
 clean:
 	rm -rf results figures/*.png figures/*.pdf logs .snakemake
