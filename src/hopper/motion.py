@@ -16,6 +16,7 @@ from hopper import chebyshev
 from hopper.chebyshev import Array
 from hopper.errors import InvalidParameterError
 from hopper.radial import RadialSolution
+from hopper.radial_collocation import half_grid
 from hopper.velocity import VelocityField
 from hopper.yield_conditions import MOHR_COULOMB, VON_MISES, YieldCondition
 
@@ -124,7 +125,7 @@ def levy_factor(solution: RadialSolution, velocity: VelocityField) -> LevyFactor
     if hopper.material != VON_MISES:
         raise InvalidParameterError("Levy's flow rule belongs to model = von-mises")
     m = velocity.log_u.size
-    sigma, psi, _, _ = solution.fields_on_half_grid(m)
+    sigma, psi, _, _ = solution.fields_on([half_grid(m, hopper.half_angle)])
     u = np.exp(velocity.log_u)
     slope = chebyshev.half_differentiation_matrix(m, "even") @ velocity.log_u / hopper.half_angle
     flow = np.array(strain_rate(u, u * slope, hopper.curvature))
