@@ -39,6 +39,8 @@ _SMALLEST_STEP = 1e-3
 _LONGEST_WALK = 300
 # Members of a walk only start what is resolved later: an error of 1e-6 is as good as rounding.
 _WALK_STEP = 1e-3
+# log(tau) to which the fold is found before its members are resolved.
+_FOLD_STEP = 1e-4
 # Radians within which a wall angle is that of the fold.
 _SAME_ANGLE = 1e-12
 # Radians below the singular angle where the family counts as ended: at the wall, inside.
@@ -266,16 +268,17 @@ def _fold(below: Member, above: Member) -> Member | None:
         return Closure("tau", exp(log_tau))
 
     def coarse_slope(log_tau: float) -> float:
-        member = newton(start.hopper, start.grid, at(log_tau), start.u)
+        member = newton(start.hopper, start.grid, at(log_tau), start.u, _FOLD_STEP)
         return (member or neighbour(start, at(log_tau))).psi_wall_by_tau
 
     ends = log(below.tau), log(above.tau)
     if not coarse_slope(ends[0]) > 0 > coarse_slope(ends[1]):
         return None
-    root = brentq(coarse_slope, *ends, xtol=1e-8)
-    # One secant step on resolved members: psi_w is stationary, so its error is of second order.
-    left, right = (neighbour(start, at(root + shift)).psi_wall_by_tau for shift in (-1e-4, 1e-4))
-    return neighbour(start, at(root - 1e-4 + 2e-4 * left / (left - right)))
+    root = brentq(coarse_slope, *ends, xtol=_FOLD_STEP)
+    # One secant step on resolved members: psi_w is stationary, so its error is of fourth order.
+    before, after = root - _FOLD_STEP, root + _FOLD_STEP
+    left, right = (neighbour(start, at(side)).psi_wall_by_tau for side in (before, after))
+    return neighbour(start, at(before + (after - before) * left / (left - right)))
 
 
 def members_with_wall_angle(
