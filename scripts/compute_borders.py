@@ -7,7 +7,7 @@ from typing import Any, get_args
 import numpy as np
 import xarray as xr
 
-from hopper.domain import ROOT_TOLERANCE, borders, neutral_curve
+from hopper.domain import ROOT_TOLERANCE, borders, neutral_curve, neutral_delta
 from hopper.family import End
 from hopper.problem import Hopper, as_geometry
 from hopper.radial import solve_radial
@@ -36,10 +36,15 @@ def compute_borders(
         np.degrees(neutral.friction_angle[-1]),
     )  # fmt: skip
     points, meshes = check["points"], {name: check[name] for name in check if name != "points"}
-    checked = np.linspace(0, neutral.delta.size - 1, points + 1).astype(int)[:-1]
+    # At given frictions, not at points of the curve, whose number depends on rounding.
+    frictions = neutral.friction_angle[-1] * np.arange(points) / points
+    checked = [
+        neutral_delta(shape, half_angle, phi, np.interp(phi, neutral.friction_angle, neutral.delta))
+        for phi in frictions
+    ]
     solutions = [
-        solve_radial(Hopper(shape, neutral.delta[i], half_angle), neutral.friction_angle[i])
-        for i in checked
+        solve_radial(Hopper(shape, delta, half_angle), phi)
+        for delta, phi in zip(checked, frictions, strict=True)
     ]
     deltas = fields.axis(**delta_deg)
     found = borders(shape, half_angle, np.radians(deltas))
@@ -55,7 +60,12 @@ def compute_borders(
             "neutral_error": fields.angle(
                 (), np.degrees(ROOT_TOLERANCE), "tolerance of neutral_delta"
             ),
-            "check_point": fields.number("check", checked, "index of a checked neutral point"),
+            "check_delta": fields.angle(
+                "check", np.degrees(checked), "internal friction of a checked neutral point"
+            ),
+            "check_phi": fields.angle(
+                "check", np.degrees(frictions), "wall friction of a checked neutral point"
+            ),
             **paper_checks.check_variables("check", solutions, **meshes),
             "limit_phi": fields.angle(
                 "delta", np.degrees(found.limit), "largest wall friction with a radial solution"

@@ -18,7 +18,7 @@ from hopper.mass_flow import (
     mass_flow_half_angle,
 )
 from hopper.problem import Hopper, as_geometry
-from hopper.radial import solve_radial, solve_radial_family
+from hopper.radial import radial_solutions, solve_radial, solve_radial_family
 from hopper.radial_collocation import Closure, crude_start, half_grid, newton
 from hopper.yield_conditions import MOHR_COULOMB, VON_MISES
 from tests import radial_witness as witness
@@ -510,3 +510,14 @@ def test_arrays_shared_between_solutions_are_read_only():
     solution = figure_3_2(0.2)
     with pytest.raises(ValueError, match="read-only"):
         solution.theta[0] = 0.0
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("delta, half_angle", [(25, 10), (30, 30), (40, 20), (47, 5), (55, 33)])
+def test_wall_angle_is_met_exactly(kind, delta, half_angle):
+    """A wall angle of -1e-33, by rounding, would make a smooth wall a second solution's end."""
+    hopper = make(kind, delta, half_angle)
+    smooth, rougher = islice(family(hopper), 2)
+    assert smooth.psi_wall == 0.0 == smooth.closure.value
+    assert rougher.closure.value in (rougher.psi_wall, rougher.tau)
+    assert [found.psi_wall for found in radial_solutions(hopper, 0.0)] == [0.0]

@@ -274,7 +274,7 @@ def _newton_step(hopper: Hopper, grid: Grid, closure: Closure, u: Array) -> tupl
     residual[-2] = grid.axis_row @ u[: grid.size]
     jacobian[-2] = 0.0
     jacobian[-2, : grid.size] = grid.axis_row
-    column = -2 if closure.unknown == "psi_wall" else -1
+    column = _column(closure)
     residual[-1] = u[column] - closure.value
     jacobian[-1, column] = 1.0
     right = np.zeros((u.size, 2), order="F")
@@ -285,6 +285,10 @@ def _newton_step(hopper: Hopper, grid: Grid, closure: Closure, u: Array) -> tupl
     if info:
         solved[:] = np.nan
     return solved[:, 0], solved[:, 1]
+
+
+def _column(closure: Closure) -> int:
+    return -2 if closure.unknown == "psi_wall" else -1
 
 
 def _size(step: Array, u: Array) -> float:
@@ -300,6 +304,7 @@ def newton(
     Convergence is quadratic: after a step of size ``last_step`` the error is of the order of its
     square, by default of rounding size. The member's ``error`` is the size of the first step.
     """
+    column = _column(closure)
     first = size = 0.0
     with np.errstate(over="ignore", invalid="ignore"):
         for iteration in range(_NEWTON_STEPS):
@@ -307,6 +312,8 @@ def newton(
             step, tangent = _newton_step(hopper, grid, closure, u)
             size = _size(step, u)
             u = u + step
+            # Linear, so met after one step but for rounding, which differs between processors.
+            u[column] = closure.value
             if not isfinite(size) or np.abs(u[grid.size : -1]).max() > np.pi / 2:
                 return None
             if iteration == 0:
@@ -394,6 +401,6 @@ def _coarse_sizes(start: Member | None) -> tuple[int, ...]:
 
 def _predicted(start: Member, closure: Closure) -> Member:
     """Move along the tangent to where the closure holds to first order."""
-    column = -2 if closure.unknown == "psi_wall" else -1
+    column = _column(closure)
     step = (closure.value - start.u[column]) / start.tangent[column]
     return replace(start, u=start.u + step * start.tangent) if isfinite(step) else start
