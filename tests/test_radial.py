@@ -513,7 +513,7 @@ def test_arrays_shared_between_solutions_are_read_only():
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("delta, half_angle", [(25, 10), (30, 30), (40, 20), (47, 5), (55, 33)])
+@pytest.mark.parametrize(("delta", "half_angle"), [(25, 10), (30, 30), (40, 20), (47, 5), (55, 33)])
 def test_wall_angle_is_met_exactly(kind, delta, half_angle):
     """A wall angle of -1e-33, by rounding, would make a smooth wall a second solution's end."""
     hopper = make(kind, delta, half_angle)
