@@ -11,7 +11,7 @@ from hopper.errors import (
     InvalidParameterError,
     TangencyError,
 )
-from hopper.family import friction_limit_from
+from hopper.family import family_from, friction_limit_from
 from hopper.problem import Hopper, require_angle
 from hopper.radial import physical_member, solution_of
 from hopper.radial_collocation import Member
@@ -74,7 +74,7 @@ def sweep_friction(hopper: Hopper, friction_angles: ArrayLike) -> Sweep:
         try:
             member = physical_member(hopper, float(angles[i]), last)
             if member is None:
-                region[rest & (angles <= _limit(last))] = _NOT_CONVERGED
+                region[rest & (angles <= _limit(last, angles[-1]))] = _NOT_CONVERGED
                 break
             last = member
             if member.tau <= 0:
@@ -84,7 +84,7 @@ def sweep_friction(hopper: Hopper, friction_angles: ArrayLike) -> Sweep:
         except ConvergenceError:
             region[i] = _NOT_CONVERGED
         except TangencyError:
-            region[rest & (angles <= _limit(last))] = _TANGENT
+            region[rest & (angles <= _limit(last, angles[-1]))] = _TANGENT
             break
         else:
             region[i] = 0 if result.stable else 1
@@ -92,10 +92,20 @@ def sweep_friction(hopper: Hopper, friction_angles: ArrayLike) -> Sweep:
     return Sweep(region, *values)
 
 
-def _limit(member: Member | None) -> float:
-    """Return the largest friction angle with a solution, that of ``member`` where unresolved."""
+def _limit(member: Member | None, highest: float) -> float:
+    """Return the largest friction angle with a solution, or ``highest`` if it is no smaller.
+
+    That of ``member`` where it is not resolved.
+    """
     if member is None:
         return -np.inf
+    law, delta = member.hopper.material, member.hopper.delta
+    for following in family_from(member):
+        if following.psi_wall_by_tau <= 0:
+            break
+        member = following
+        if law.friction_angle(delta, member.psi_wall) >= highest:
+            return highest
     try:
         return friction_limit_from(member).friction_angle
     except ConvergenceError:
