@@ -1,5 +1,6 @@
 # make          build every figure          make test   set up if needed, check and test
 # make report   results/report.html         make crate  results/hopper-crate.zip, of a finished run
+# make verify   find damaged results        make resume go on after a kill or a loss of power
 # make bench    measure the speed figures   make lock   resolve the dependencies anew (needs uv)
 # make figures/fig_3_1.png                  build one figure
 # make check    compare artifacts and figures with what is stored in tests/figures
@@ -10,9 +11,14 @@ BIN := .venv/bin
 PIP := $(BIN)/python -m pip install -qq --disable-pip-version-check --require-hashes --no-build-isolation
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: figures test check references lint bench gallery lock clean FORCE
+.PHONY: figures resume test check references lint bench gallery lock clean FORCE
 
 figures: .venv/run.stamp
+	@$(BIN)/python -m snakemake
+
+# Snakemake locks a directory while it works; a run that was killed leaves the lock behind.
+resume: .venv/run.stamp
+	@$(BIN)/python -m snakemake --unlock
 	@$(BIN)/python -m snakemake
 
 figures/%: .venv/run.stamp FORCE
@@ -38,7 +44,11 @@ lint: .venv/test.stamp
 	@$(BIN)/lint-imports
 	@$(BIN)/python -m snakemake --lint
 
-.PHONY: report crate test-report
+.PHONY: report crate verify test-report
+
+# Are all results and logs, byte for byte, what the jobs wrote? What is not is named.
+verify: .venv/run.stamp
+	@PYTHONPATH=scripts $(BIN)/python -m publish.verify
 
 report: .venv/run.stamp
 	@PYTHONPATH=scripts $(BIN)/python -m publish.report

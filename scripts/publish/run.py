@@ -3,8 +3,10 @@
 import csv
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
+
+from support import logs
 
 DATA = {".nc", ".csv"}  # suffixes of inputs that hold data; all other inputs are code
 
@@ -19,15 +21,21 @@ def products() -> dict[Path, list[Path]]:
     Raises
     ------
     RunError
-        If a file is missing or older than what it depends on, or the configuration is not valid.
+        If a file is missing, damaged or older than what it depends on, or the configuration is not
+        valid.
     """
-    listing = snakemake("--detailed-summary")
-    rows = list(csv.DictReader(listing.splitlines(), delimiter="\t"))
+    rows = summary()
     stale = [row["output_file"] for row in rows if row["plan"] != "no update"]
     if stale:
         raise RunError(
             f"{len(stale)} of {len(rows)} results are missing or out of date, first {stale[0]}: "
             "build them with: make"
+        )
+    damaged = damages(rows)
+    if damaged:
+        raise RunError(
+            f"{len(damaged)} of {len(rows)} results are damaged, first {next(iter(damaged))}: "
+            "list them with: make verify"
         )
     return {
         Path(row["output_file"]): [
@@ -35,6 +43,37 @@ def products() -> dict[Path, list[Path]]:
         ]
         for row in sorted(rows, key=lambda row: row["output_file"])
     }
+
+
+def summary() -> list[dict[str, str]]:
+    """Return Snakemake's detailed summary, a row for every file the workflow makes.
+
+    Raises
+    ------
+    RunError
+        If the configuration is not valid.
+    """
+    return list(csv.DictReader(snakemake("--detailed-summary").splitlines(), delimiter="\t"))
+
+
+def damages(rows: Iterable[Mapping[str, str]]) -> dict[str, str]:
+    """Return what is wrong with files of the summary that exist, by path; nothing for sound ones.
+
+    A file is sound if the log of its job is, and holds its checksum.
+    """
+    found = {}
+    for row in rows:
+        path, log = row["output_file"], row["log-file(s)"]
+        if not Path(path).exists():
+            continue
+        try:
+            written = logs.checksums(log).get(path)
+        except logs.LogError as error:
+            found[path] = f"not vouched for: its log {log} {error}"
+        else:
+            if logs.checksum(path) != written:
+                found[path] = "damaged or foreign: not what its job wrote"
+    return found
 
 
 def snakemake(*arguments: str) -> str:

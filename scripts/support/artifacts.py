@@ -1,6 +1,5 @@
 """Read and write netCDF artifacts (CF, ACDD), each with a provenance side file."""
 
-import hashlib
 import json
 import platform
 import subprocess
@@ -16,6 +15,7 @@ from hopper import __version__
 from hopper_cli import cf
 from hopper_cli.cf import plain as plain
 from hopper_cli.files import replacing as replacing
+from support.logs import checksum as checksum
 
 _PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "matplotlib", "snakemake")
 
@@ -69,11 +69,6 @@ def _write_provenance(
         temporary.write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
 
 
-def checksum(path: str | Path) -> str:
-    """Return the SHA-256 of a file's bytes."""
-    return hashlib.sha256(Path(path).read_bytes()).hexdigest()
-
-
 def _commit() -> str | None:
     """Return `git describe` of the code, None outside a repository."""
     command = ["git", "describe", "--always", "--dirty", "--abbrev=12"]
@@ -86,27 +81,52 @@ def _commit() -> str | None:
     return done.stdout.strip()
 
 
-def read(path: str | Path, parameters: Mapping[str, Any] | None = None) -> xr.Dataset:
-    """Load an artifact into memory.
+def verify(path: str | Path) -> None:
+    """Check that an artifact has, byte for byte, the content its provenance tells of.
 
     Raises
     ------
     ArtifactError
-        If the file is missing or damaged, is not one of ours, or holds other parameters than
-        ``parameters``; the message names the command that rebuilds it.
+        If it is missing, damaged or not one of ours; the message names the command that rebuilds
+        it.
     """
-    remedy = f"delete it and rebuild it with: snakemake {path}"
+    remedy = f"rebuild it with: snakemake --force {path}"
+    provenance = Path(path).with_suffix(".provenance.json")
     try:
-        with xr.open_dataset(path, engine="netcdf4") as dataset:
-            loaded = dataset.load()
-    except FileNotFoundError:
+        found = checksum(path)
+    except OSError as error:
+        if isinstance(error, FileNotFoundError):
+            raise ArtifactError(
+                f"artifact {path} is missing: build it with: snakemake {path}"
+            ) from None
+        raise ArtifactError(f"artifact {path} cannot be read ({error.strerror})") from error
+    try:
+        recorded = json.loads(provenance.read_text(encoding="utf-8"))["sha256"]
+    except (OSError, ValueError, LookupError, TypeError):
         raise ArtifactError(
-            f"artifact {path} is missing: build it with: snakemake {path}"
+            f"artifact {path} has no readable {provenance.name} beside it: {remedy}"
         ) from None
-    except (OSError, ValueError, RuntimeError) as error:
-        raise ArtifactError(f"artifact {path} is damaged ({error}): {remedy}") from error
-    if "parameters" not in loaded.attrs:
-        raise ArtifactError(f"artifact {path} was not written by this workflow: {remedy}")
+    if found != recorded:
+        raise ArtifactError(
+            f"artifact {path} is damaged or foreign: its checksum is not that of "
+            f"{provenance.name}; {remedy}"
+        )
+
+
+def read(path: str | Path, parameters: Mapping[str, Any] | None = None) -> xr.Dataset:
+    """Verify an artifact and load it into memory.
+
+    Raises
+    ------
+    ArtifactError
+        As :func:`verify`, or if it holds other parameters than ``parameters``.
+    """
+    verify(path)
+    with xr.open_dataset(path, engine="netcdf4") as dataset:
+        loaded = dataset.load()
     if parameters is not None and loaded.attrs["parameters"] != plain(parameters):
-        raise ArtifactError(f"artifact {path} belongs to another configuration: {remedy}")
+        raise ArtifactError(
+            f"artifact {path} belongs to another configuration: "
+            f"rebuild it with: snakemake --force {path}"
+        )
     return loaded

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from hopper.errors import HopperError
+from support import logs
 from support.artifacts import ArtifactError
 
 Progress = Callable[[int, int], None]
@@ -16,7 +17,7 @@ def run(function: Callable[..., None], job: Any) -> None:
     """Call a rule's function with the job's named inputs, outputs and params.
 
     ``job`` is Snakemake's object. The input ``code``, there for Snakemake only, is left out. A
-    foreseen error ends in one line and exit code 1.
+    foreseen error ends in one line and exit code 1. The log of a job that is done is sealed.
     """
     handlers: list[logging.Handler] = [logging.StreamHandler()]
     handlers += [logging.FileHandler(path, mode="w", encoding="utf-8") for path in job.log]
@@ -35,6 +36,9 @@ def run(function: Callable[..., None], job: Any) -> None:
         logging.exception("%s: unexpected error", job.rule)
         sys.exit(1)
     logging.info("%s: done", job.rule)
+    logging.shutdown()
+    for path in job.log:
+        logs.seal(path, job.output)
 
 
 def progress(logger: logging.Logger, label: str, steps: int = 4) -> Progress:

@@ -1,6 +1,8 @@
 """netCDF files that follow the CF and ACDD conventions."""
 
+import errno
 import json
+import shutil
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -67,6 +69,11 @@ def write(
 
     ``equations`` names the equations or sections of the paper the data come from, ``parameters``
     what they depend on.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written, for one because the disk is full; no part of it stays.
     """
     dataset = dataset.assign_attrs(
         Conventions="CF-1.11, ACDD-1.3",
@@ -82,4 +89,10 @@ def write(
     )
     encoding = {name: {"_FillValue": None} for name in dataset.variables}
     with replacing(path) as temporary:
-        dataset.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
+        try:
+            dataset.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
+        except RuntimeError as error:
+            # What the library says of a full disk is "HDF error".
+            free = shutil.disk_usage(temporary.parent).free
+            reason = f"{error}, with {free} bytes free on its disk: make room"
+            raise OSError(errno.EIO, reason, str(path)) from error

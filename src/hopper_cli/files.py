@@ -16,12 +16,32 @@ def _partial(target: Path) -> Path:
     return target.with_name(f".{target.stem}.{os.getpid()}.partial{target.suffix}")
 
 
+def _remove_leftovers(target: Path) -> None:
+    """Remove the temporary files of writers of ``target`` that were killed."""
+    start, end = f".{target.stem}.", f".partial{target.suffix}"
+    for path in target.parent.glob(f".*{end}"):
+        writer = path.name.removeprefix(start).removesuffix(end)
+        if path.name.startswith(start) and writer.isdecimal() and not _is_alive(int(writer)):
+            path.unlink(missing_ok=True)
+
+
+def _is_alive(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        pass
+    return True
+
+
 @contextlib.contextmanager
 def replacing(path: str | Path) -> Iterator[Path]:
     """Yield a temporary path beside ``path`` and move it there once it is complete."""
     target = Path(path)
     target.parent.mkdir(parents=True, exist_ok=True)
     temporary = _partial(target)
+    _remove_leftovers(target)
     try:
         yield temporary
         with temporary.open("rb") as file:

@@ -56,16 +56,16 @@ def compared_artifacts() -> list[str]:
 def reference(data: xr.Dataset, entry: dict[str, Any]) -> xr.Dataset:
     """Return what is stored of an artifact: large arrays thinned, beside their means or counts."""
     thin = entry.get("thin", {})
-    stored = data.isel({dimension: slice(None, None, step) for dimension, step in thin.items()})
+    kept = data.isel({dimension: slice(None, None, step) for dimension, step in thin.items()})
     for name, values in data.data_vars.items():
         if not thin.keys() & set(values.dims):
             continue
         if values.dtype.kind == "f":
             finite = values.where(np.isfinite(values))
-            stored[f"{name}_mean"] = finite.mean()
+            kept[f"{name}_mean"] = finite.mean()
         else:
-            stored[f"{name}_counts"] = (f"{name}_code", np.bincount(values.to_numpy().ravel()))
-    return stored
+            kept[f"{name}_counts"] = (f"{name}_code", np.bincount(values.to_numpy().ravel()))
+    return kept
 
 
 def store(data: xr.Dataset, path: Path) -> None:
@@ -75,14 +75,19 @@ def store(data: xr.Dataset, path: Path) -> None:
     data.to_netcdf(path, engine="netcdf4", format="NETCDF3_64BIT", encoding=encoding)
 
 
-def differences(data: xr.Dataset, stored: xr.Dataset, entry: dict[str, Any]) -> list[str]:
+def stored(artifact: str) -> xr.Dataset:
+    """Return the reference of an artifact, a path below results/."""
+    return xr.load_dataset(REFERENCES / artifact, engine="netcdf4")
+
+
+def differences(data: xr.Dataset, expected: xr.Dataset, entry: dict[str, Any]) -> list[str]:
     """Return, a line each, where an artifact leaves its reference; an empty list if nowhere."""
-    drawn_from, wanted = (json.loads(each.attrs["parameters"]) for each in (data, stored))
+    drawn_from, wanted = (json.loads(each.attrs["parameters"]) for each in (data, expected))
     changed = [key for key in drawn_from | wanted if drawn_from.get(key) != wanted.get(key)]
     if changed:
         return [f"made with other parameters than the reference: {', '.join(sorted(changed))}"]
     found = []
-    for rule, name, deviation in deviations(data, stored, entry):
+    for rule, name, deviation in deviations(data, expected, entry):
         (kind,) = rule.keys() & set(KINDS)
         if deviation == np.inf:
             found.append(f"{name}: shape, gaps, units or values that must be equal differ")

@@ -8,7 +8,7 @@ from tests.figures import images, numbers, structure
 
 def test_a_wrong_sign_is_found(artifact):
     data, entry = artifacts.read(f"results/{artifact}"), numbers.entry_of(artifact)
-    stored = artifacts.read(numbers.REFERENCES / artifact)
+    stored = numbers.stored(artifact)
     bounded = {name for rule in entry["rules"] if "below" in rule for name in rule["variables"]}
     compared = [
         name

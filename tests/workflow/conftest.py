@@ -105,8 +105,8 @@ class Workflow:
         path.write_text(text.replace(old, new), encoding="utf-8")
 
 
-def copy(target: Path, *, results: Path | None = None) -> Workflow:
-    """Copy the workflow with coarse numbers, and the results of another copy where given."""
+def copy(target: Path, *, results: Path | None = None, coarse: bool = True) -> Workflow:
+    """Copy the workflow, with coarse numbers, and the results of another copy where given."""
     target.mkdir(parents=True)
     for part in PARTS:
         source = ROOT / part
@@ -120,8 +120,9 @@ def copy(target: Path, *, results: Path | None = None) -> Workflow:
         for part in ("results", "figures", "logs", ".snakemake"):
             shutil.copytree(results / part, target / part)
     workflow = Workflow(target)
-    for key, value in COARSE.items():
-        workflow.set(key, value)
+    if coarse:
+        for key, value in COARSE.items():
+            workflow.set(key, value)
     return workflow
 
 

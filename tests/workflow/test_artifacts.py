@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from support import artifacts
+from tests.reliability import record
 
 pytestmark = pytest.mark.workflow
 
@@ -57,19 +58,32 @@ def test_provenance_matches_its_artifact(built):
 
 
 def test_artifacts_and_figures_are_identical_in_another_place(built, fresh):
-    fresh.build("--cores", "1", TZ="Asia/Tokyo", LC_ALL="C")
+    fresh.build("--cores", "1", TZ="Asia/Tokyo", LC_ALL="C", LANG="de_DE.UTF-8")
     compared = files(built, "results", "*.nc") + files(built, "figures", "*.p*")
     compared += files(built, "results", "claims.*")
     for path in compared:
         twin = fresh.path / path.relative_to(built.path)
         assert artifacts.checksum(path) == artifacts.checksum(twin), path.name
+    record(
+        "determinism",
+        "Two runs on one machine, in directories with and without a space in their names, at two "
+        "times, with one core and two, in two time zones and two locales, gave identical bytes of "
+        "every artifact, table and figure.",
+        {"files compared": len(compared), "different": 0},
+    )
 
 
 def test_the_number_of_chunks_does_not_change_the_map(built, rebuilt):
-    rebuilt.set("stability_map.chunks", 3)
-    rebuilt.build("results/map/cone_10.nc")
-    path = "results/map/cone_10.nc"
-    assert artifacts.checksum(rebuilt.path / path) == artifacts.checksum(built.path / path)
+    path, chunks = "results/map/cone_10.nc", [1, 3, 7]
+    for number in chunks:
+        rebuilt.set("stability_map.chunks", number)
+        rebuilt.build(path)
+        assert artifacts.checksum(rebuilt.path / path) == artifacts.checksum(built.path / path)
+    record(
+        "chunks",
+        "A map computed in other numbers of jobs has the same bytes.",
+        {"numbers of jobs": ", ".join(map(str, chunks)), "different": 0},
+    )
 
 
 def test_a_map_tells_why_there_is_no_verdict(built):
@@ -90,23 +104,9 @@ def test_error_estimates_are_in_the_artifacts(built):
 def test_logs_receive_what_the_script_says(built):
     for path in files(built, "logs", "*.log"):
         text = path.read_text(encoding="utf-8")
-        assert ": started" in text
-        assert text.rstrip().endswith(": done")
-    for log in files(built, "logs", "*.log"):
-        assert log.with_suffix(".benchmark.tsv").is_file()
-
-
-def test_a_truncated_artifact_is_named_with_its_remedy(rebuilt):
-    path = rebuilt.path / "results/radial/fig_3_1.nc"
-    path.write_bytes(path.read_bytes()[:2000])
-    with pytest.raises(artifacts.ArtifactError, match=r"fig_3_1\.nc is damaged .*rebuild it with"):
-        artifacts.read(path)
-    path.write_bytes(b"not netCDF at all")
-    with pytest.raises(artifacts.ArtifactError, match="damaged"):
-        artifacts.read(path)
-    path.unlink()
-    with pytest.raises(artifacts.ArtifactError, match="missing: build it with: snakemake"):
-        artifacts.read(path)
+        assert ": started\n" in text
+        assert ": done\n" in text
+        assert path.with_suffix(".benchmark.tsv").is_file()
 
 
 def test_an_artifact_of_another_configuration_is_refused(built):

@@ -1,0 +1,174 @@
+"""Killed, cut short, or with nowhere to write: nothing is lost, and nothing half-written counts."""
+
+import contextlib
+import os
+import random
+import re
+import shutil
+import subprocess
+
+import pytest
+
+from hopper_cli.files import replacing
+from tests.reliability import record
+from tests.workflow import interruptions
+from tests.workflow.interruptions import (
+    jobs_of,
+    killed_at_random,
+    products,
+    resume,
+    started,
+    wait_for,
+)
+
+pytestmark = pytest.mark.workflow
+SEED = 2000
+# Some of every kind: solver, chunks that are merged, several artifacts for a plot.
+SOME = ("figures/fig_3_1.png", "figures/fig_4_1.png", "results/map/cone_10.nc")
+AS_ROOT = pytest.mark.skipif(
+    os.geteuid() != 0 or not shutil.which("mount"), reason="mounting a small disk needs root"
+)
+
+
+def sound(built):
+    found = products(built)
+    assert len(found) > 60
+    return found
+
+
+def test_killed_at_random_moments(built, fresh):
+    expected = sound(built)
+    at_work = killed_at_random(fresh, expected, 5, random.Random(SEED), *SOME)
+    resume(fresh, *SOME)
+    found = products(fresh)
+    assert {*SOME} <= found.keys()
+    assert found.items() <= expected.items()
+    assert at_work > 0
+    record(
+        "kill_and_resume_short",
+        "A few targets were built, and the run killed with all its processes (SIGKILL) at random "
+        "moments, then resumed: the files are, byte for byte, those of an undisturbed run.",
+        {"moments killed": 5, "jobs at work then": at_work, "files compared": len(found),
+         "lost": 0},
+    )  # fmt: skip
+
+
+@pytest.mark.soak
+def test_killed_at_many_random_moments(built, copy_workflow, tmp_path):
+    expected, rng = sound(built), random.Random(SEED)
+    at_work, rounds, kills = 0, 5, 6
+    for turn in range(rounds):
+        workflow = copy_workflow(tmp_path / str(turn))
+        at_work += killed_at_random(workflow, expected, kills, rng)
+        resume(workflow)
+        assert products(workflow) == expected
+        assert workflow.publish("verify").returncode == 0
+        assert interruptions.leftovers(workflow) == []
+    record(
+        "kill_and_resume",
+        "The whole workflow, on coarse grids, was killed with all its processes (SIGKILL) at "
+        "random moments, resumed, killed again, and at last completed: every artifact, table and "
+        "figure is, byte for byte, that of an undisturbed run.",
+        {"moments killed": rounds * kills, "jobs at work then": at_work, "runs completed": rounds,
+         "files compared": rounds * len(expected), "lost": 0},
+    )  # fmt: skip
+
+
+def test_one_job_killed(built, fresh):
+    with started(fresh, *SOME) as process:
+        wait_for(lambda: bool(jobs_of(process)))
+        victim = jobs_of(process)[0]
+        victim.kill()
+        assert process.wait(timeout=120) == 1
+    log = (fresh.path / "run.log").read_text(encoding="utf-8")
+    assert "Error in rule" in log
+    assert "Traceback" not in log
+    fresh.build(*SOME)
+    found = products(fresh)
+    assert {*SOME} <= found.keys()
+    assert found.items() <= sound(built).items()
+    record("job_killed", "One job of a run was killed: the run ended with exit code 1 and the name "
+           "of the rule, and the next run made what was missing.",
+           {"jobs killed": 1, "files compared": len(found), "lost": 0})  # fmt: skip
+
+
+def test_two_runs_at_once(built, fresh):
+    with started(fresh, *SOME) as process:
+        wait_for(lambda: bool(jobs_of(process)))
+        second = fresh.snakemake(*SOME)
+        assert second.returncode == 1
+        assert "cannot be locked" in second.stderr
+        assert "Traceback" not in second.stderr
+        assert process.wait(timeout=300) == 0
+    found = products(fresh)
+    assert {*SOME} <= found.keys()
+    assert found.items() <= sound(built).items()
+    record("two_runs_at_once", "A second run in the same directory is refused while the first "
+           "works, and does not disturb it.",
+           {"runs refused": 1, "files compared": len(found), "lost": 0})  # fmt: skip
+
+
+@contextlib.contextmanager
+def mounted(folder, *options):
+    subprocess.run(["mount", *options, str(folder)], check=True, capture_output=True)
+    try:
+        yield
+    finally:
+        subprocess.run(["umount", "-l", str(folder)], check=True)
+
+
+@AS_ROOT
+def test_disk_full(built, fresh):
+    disk = fresh.path / "results"
+    disk.mkdir()
+    expected = sound(built)
+    with mounted(disk, "-t", "tmpfs", "-o", "size=96k", "tmpfs"):
+        done = fresh.snakemake("--keep-going", *SOME)
+        assert done.returncode == 1
+        assert re.search(r"No space left on device|\d+ bytes free on its disk", done.stderr)
+        assert "unexpected error" not in done.stderr
+        partial = products(fresh)
+        assert partial.items() <= expected.items()
+        assert {*SOME} > partial.keys() & {*SOME}
+        subprocess.run(["mount", "-o", "remount,size=64m", str(disk)], check=True)
+        fresh.build(*SOME)
+        found = products(fresh)
+        assert {*SOME} <= found.keys()
+        assert found.items() <= expected.items()
+    record("disk_full", "The disk of the results had 96 KiB: jobs ended with the reason, what they "
+           "had begun was removed, and with space again the run was completed.",
+           {"files before": len(partial), "files compared": len(found), "lost": 0})  # fmt: skip
+
+
+@AS_ROOT
+def test_results_read_only(built, rebuilt):
+    disk, expected = rebuilt.path / "results", sound(built)
+    rebuilt.set("radial.fig_3_1.delta_deg", 31)
+    with mounted(disk, "--bind", str(disk)):
+        subprocess.run(["mount", "-o", "remount,bind,ro", str(disk)], check=True)
+        done = rebuilt.snakemake("figures/fig_3_1.png")
+        assert done.returncode == 1
+        assert "Write-protected output files for rule solve_radial" in done.stderr
+        assert "results/radial/fig_3_1.nc" in done.stderr
+        assert "Traceback" not in done.stderr
+    lost = expected.keys() - products(rebuilt).keys()
+    assert not {path for path in lost if path.startswith("results")}
+    rebuilt.set("radial.fig_3_1.delta_deg", 30)
+    rebuilt.build()
+    assert products(rebuilt) == expected
+    record("results_read_only", "With results/ read-only a run that had to change them ended with "
+           "the reason and changed nothing; writable again, it went on.",
+           {"files compared": len(expected), "lost": 0})  # fmt: skip
+
+
+def test_what_a_killed_writer_leaves_is_removed_by_the_next(tmp_path):
+    gone = subprocess.Popen(["true"])
+    gone.wait()
+    left = tmp_path / f".artifact.{gone.pid}.partial.nc"
+    at_work = tmp_path / f".artifact.{os.getppid()}.partial.nc"
+    other = tmp_path / f".artifact.2.{gone.pid}.partial.nc"
+    for path in (left, at_work, other):
+        path.write_text("half", encoding="utf-8")
+    with replacing(tmp_path / "artifact.nc") as partial:
+        partial.write_text("whole", encoding="utf-8")
+    assert sorted(tmp_path.iterdir()) == sorted([at_work, other, tmp_path / "artifact.nc"])
