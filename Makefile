@@ -11,7 +11,7 @@ BIN := .venv/bin
 PIP := $(BIN)/python -m pip install -qq --disable-pip-version-check --require-hashes --no-build-isolation
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: figures resume test check references lint bench gallery lock clean FORCE
+.PHONY: figures resume test check references lint soak reliability bench gallery lock clean FORCE
 
 figures: .venv/run.stamp
 	@$(BIN)/python -m snakemake
@@ -59,6 +59,16 @@ crate: .venv/run.stamp
 # Opens results/report.html in a headless Chromium.
 test-report: .venv/test.stamp
 	@HOPPER_REPORT=results/report.html $(BIN)/python -m pytest tests/workflow/test_browser.py
+
+# The long tests of reliability, and what all tests of it find as a page.
+RELIABILITY := artifacts corruption interruptions mutated_configurations processors supply_chain
+soak: .venv/test.stamp
+	@$(BIN)/python -m pytest -m soak
+
+reliability: .venv/test.stamp .venv/cluster.stamp
+	@rm -rf .reliability
+	@$(BIN)/python -m pytest -m '' $(RELIABILITY:%=tests/workflow/test_%.py) tests/slurm
+	@$(BIN)/python -m tests.reliability > docs/reliability.md
 
 bench: .venv/test.stamp
 	@$(BIN)/python -m benchmarks

@@ -1,10 +1,13 @@
 """Figures of the tests of reliability, from which `make reliability` writes docs/reliability.md.
 
-A test calls :func:`record` once all its assertions hold.
+A test calls :func:`record` once all its assertions hold. ``python -m tests.reliability`` renders
+what was recorded.
 """
 
 import json
+import sys
 from pathlib import Path
+from typing import Any
 
 RECORDS = Path(__file__).parents[1] / ".reliability"
 Figure = int | float | str
@@ -25,3 +28,34 @@ def record(name: str, what: str, figures: dict[str, Figure]) -> None:
     RECORDS.mkdir(exist_ok=True)
     text = json.dumps({"name": name, "what": what, "figures": figures}, indent=2)
     (RECORDS / f"{name}.json").write_text(text + "\n", encoding="utf-8")
+
+
+def render(folder: Path = RECORDS) -> str:
+    """Return the records as a page of Markdown, in the order of their names.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no record.
+    """
+    records = [json.loads(path.read_text(encoding="utf-8")) for path in sorted(folder.glob("*"))]
+    if not records:
+        raise FileNotFoundError(f"no record in {folder}: run the tests first: make reliability")
+    return "\n".join([_INTRODUCTION, *map(_section, records)])
+
+
+def _section(record: dict[str, Any]) -> str:
+    title = record["name"].replace("_", " ").capitalize()
+    rows = [f"| {label} | {value} |" for label, value in record["figures"].items()]
+    return "\n".join([f"## {title}", "", record["what"], "", "| | |", "|---|---|", *rows, ""])
+
+
+_INTRODUCTION = """# Reliability
+
+What the tests of `make reliability` did to the workflow on one machine and what they found, written
+by the tests themselves.
+"""
+
+
+if __name__ == "__main__":
+    sys.stdout.write(render())

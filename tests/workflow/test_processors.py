@@ -52,7 +52,9 @@ def test_an_old_processor_agrees_within_the_tolerances(built, fresh):
 
 @pytest.mark.soak
 def test_every_processor_agrees_with_the_references(copy_workflow, tmp_path):
-    verdicts, contents, compared = {}, {}, 0
+    verdicts: dict[str, list[tuple[str, str]]] = {}
+    contents: dict[str, set[str]] = {}
+    compared = 0
     for processor in PROCESSORS:
         workflow = copy_workflow(tmp_path / processor, coarse=False)
         build(workflow, processor, "results/claims.csv")
@@ -66,7 +68,7 @@ def test_every_processor_agrees_with_the_references(copy_workflow, tmp_path):
             assert found == [], f"{processor}: {artifact}"
             compared += 1
         with (workflow.path / "results/claims.csv").open(encoding="utf-8", newline="") as file:
-            verdicts[processor] = [(row["claim"], row["verdict"]) for row in csv.DictReader(file)]
+            verdicts[processor] = [(row["id"], row["verdict"]) for row in csv.DictReader(file)]
     first, *others = verdicts.values()
     assert first
     assert all(other == first for other in others)
