@@ -3,6 +3,7 @@
 # make verify   find damaged results        make resume go on after a kill or a loss of power
 # make bench    measure the speed figures   make lock   resolve the dependencies anew (needs uv)
 # make figures/fig_3_1.png                  build one figure
+# make cluster  the environment with Snakemake's SLURM executor; docs/cluster.md tells more
 # make check    compare artifacts and figures with what is stored in tests/figures
 # make references                           store them anew, after a deliberate change
 
@@ -70,6 +71,17 @@ reliability: .venv/test.stamp .venv/cluster.stamp
 	@$(BIN)/python -m pytest -m '' $(RELIABILITY:%=tests/workflow/test_%.py) tests/slurm
 	@$(BIN)/python -m tests.reliability > docs/reliability.md
 
+# On a SLURM of its own, which it installs and starts: Debian, root, some ten minutes.
+.PHONY: cluster test-slurm requests
+cluster: .venv/cluster.stamp
+
+test-slurm: .venv/test.stamp .venv/cluster.stamp
+	@$(BIN)/python -m pytest -m slurm tests/slurm
+
+# Costs of all rules, from the last run's benchmarks, which should have been undisturbed.
+requests: figures
+	@$(BIN)/python -m benchmarks.requests
+
 bench: .venv/test.stamp
 	@$(BIN)/python -m benchmarks
 
@@ -95,6 +107,11 @@ clean:
 	@echo "Adding the test tools from requirements-dev.lock"
 	@$(PIP) -r requirements-dev.lock
 	@$(PIP) --no-deps -r requirements-cff.lock
+	@touch $@
+
+.venv/cluster.stamp: .venv/run.stamp requirements-cluster.lock
+	@echo "Adding Snakemake's SLURM executor from requirements-cluster.lock"
+	@$(PIP) -r requirements-cluster.lock
 	@touch $@
 
 COMPILE := uv pip compile --universal --generate-hashes --no-header --no-annotate -q

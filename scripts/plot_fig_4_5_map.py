@@ -9,6 +9,10 @@ from matplotlib.colors import ListedColormap, SymLogNorm
 from matplotlib.figure import Figure
 
 from support import artifacts, domains, jobs, plotting
+from support import maps as maps_of
+
+# A panel has fewer pixels; every cell more costs memory and time.
+_MOST = 1000
 
 
 def draw(
@@ -23,13 +27,14 @@ def draw(
     norm = SymLogNorm(linear, vmin=-largest, vmax=largest)
     figure, axes = plotting.subplots(2, 2, height=5.9, sharex=True, sharey=True)
     for axis, path, border, title in zip(axes.flat, maps, borders, panels, strict=True):
-        data = artifacts.read(path)
+        whole = artifacts.read(path)
+        data = maps_of.thinned(whole, _MOST)
         _mark_undecided(axis, data)
         mesh = axis.pcolormesh(data.delta, data.phi, data.abscissa.T, cmap="RdBu_r", norm=norm,
                                shading="nearest", rasterized=True)  # fmt: skip
         domains.draw_borders(axis, artifacts.read(border))
-        axis.set_xlim(float(data.delta.min()), float(data.delta.max()))
-        axis.set_ylim(0, float(data.phi.max()))
+        axis.set_xlim(float(whole.delta.min()), float(whole.delta.max()))
+        axis.set_ylim(0, float(whole.phi.max()))
         axis.set_title(title)
     for axis in axes[1]:
         axis.set_xlabel(r"angle of internal friction $\delta$ (degrees)")

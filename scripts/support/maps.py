@@ -3,6 +3,8 @@
 from collections.abc import Sequence
 from typing import Any
 
+import xarray as xr
+
 from hopper.stability_map import REGIONS, Sweep
 from support.fields import Variable, flag, number
 
@@ -26,3 +28,8 @@ def map_variables(sweeps: Sequence[Sweep]) -> dict[str, Variable]:
         ),
         "region": region(over, [s.region for s in sweeps]),
     }
+
+
+def thinned(data: xr.Dataset, most: int) -> xr.Dataset:
+    """Return every n-th row and column of a map, at most ``most`` of each; all if no more."""
+    return data.isel({name: slice(None, None, -(-data.sizes[name] // most)) for name in data.dims})

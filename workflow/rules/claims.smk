@@ -84,6 +84,8 @@ rule judge_claims:
     conda:
         "../../envs/hopper.yaml"
     threads: 1
+    resources:
+        **asks("judge_claims", map_points()),
     script:
         "../../scripts/judge_claims.py"
 

@@ -8,7 +8,7 @@ from snakemake.exceptions import WorkflowError
 
 sys.path = [str(ROOT / "src"), str(ROOT / "scripts"), *sys.path]
 
-from support import code_graph, configuration
+from support import code_graph, configuration, requests
 
 code_graph.let_scripts_import(ROOT)
 try:
@@ -17,6 +17,7 @@ except configuration.ConfigurationError as error:
     raise WorkflowError(str(error)) from None
 
 FIGURES = []
+COSTS = requests.read_costs(ROOT / "resources/benchmarks.tsv")
 
 
 wildcard_constraints:
@@ -32,3 +33,11 @@ wildcard_constraints:
 def code_of(script):
     """Modules a script imports, directly or not. Inputs, so that editing one reruns its users."""
     return code_graph.modules_used_by(ROOT, f"scripts/{script}.py")
+
+
+def asks(rule, points):
+    """Run time and memory of a job with this many points of a map; another attempt asks for more."""
+    return {
+        name: lambda wildcards, attempt, value=value: attempt * value
+        for name, value in requests.of_job(COSTS[rule], points).items()
+    }

@@ -46,6 +46,8 @@ rule compute_map_chunk:
     conda:
         "../../envs/hopper.yaml"
     threads: 1
+    resources:
+        **asks("compute_map_chunk", map_points(MAP["chunks"])),
     params:
         geometry="{geometry}",
         half_angle_deg=lambda wildcards: float(wildcards.angle),
@@ -71,6 +73,8 @@ rule merge_map:
     conda:
         "../../envs/hopper.yaml"
     threads: 1
+    resources:
+        **asks("merge_map", map_points()),
     params:
         geometry="{geometry}",
         half_angle_deg=lambda wildcards: float(wildcards.angle),
@@ -201,6 +205,8 @@ rule plot_fig_4_5_map:
     conda:
         "../../envs/hopper.yaml"
     threads: 1
+    resources:
+        **asks("plot_fig_4_5_map", map_points()),
     params:
         panels=[f"{case.replace('_', ', half angle ')}°" for case in CASES],
         color_range=config["fig_4_5_map"]["color_range"],

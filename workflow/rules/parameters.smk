@@ -2,6 +2,8 @@
 # Parameters of rules, looked up in the configuration by wildcards
 # =================================================================================================
 
+import math
+
 
 def labels(figure, shows, geometry, mode="—"):
     """Columns of a figure's row in the report; its section is the category."""
@@ -48,3 +50,9 @@ def mesh_of(spectrum):
     """Nodes of both meshes and tolerance of the filter of one of the discrete spectra."""
     case = config["spectra"][spectrum]
     return {name: case[name] for name in ["nodes", "coarse_nodes", "tolerance"]}
+
+
+def map_points(chunks=None):
+    """Points of a stability map, or of the largest of its chunks."""
+    rows, columns = (config["stability_map"][axis]["points"] for axis in ["delta_deg", "phi_deg"])
+    return rows * columns if chunks is None else math.ceil(rows / chunks) * columns
