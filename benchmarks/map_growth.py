@@ -9,6 +9,7 @@ import resource
 import sys
 import time
 from pathlib import Path
+from typing import Any
 from unittest.mock import patch
 
 import numpy as np
@@ -45,7 +46,7 @@ def write_chunk(path: Path, side: int, chunk: int, chunks: int) -> None:
         )
 
 
-def with_points(side: int) -> dict[str, object]:
+def with_points(side: int) -> dict[str, Any]:
     return {
         name: {**value, "points": side} if isinstance(value, dict) else value
         for name, value in MAP.items()
