@@ -74,7 +74,7 @@ def test_cancelled_jobs_are_retried(local, tmp_path):
             while process.poll() is None and time.monotonic() < end:
                 fresh = [job for job in running() if job not in cancelled]
                 if fresh and len(cancelled) < 3:
-                    time.sleep(2 * len(cancelled))  # at its start, and when it has begun to work
+                    time.sleep(len(cancelled))  # at its start, and one and two seconds later
                     subprocess.run(["scancel", fresh[0]], check=True)
                     cancelled.append(fresh[0])
                 time.sleep(0.2)
