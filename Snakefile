@@ -5,13 +5,16 @@ Targets: `snakemake` makes all figures and the claims ledger, `snakemake figures
 """
 
 
+include: "workflow/rules/root.smk"
+include: "workflow/rules/configfile.smk"
+
+
 configfile: "config.yaml"
 
 
 report: "workflow/report/workflow.rst"
 
 
-include: "workflow/rules/root.smk"
 include: "workflow/rules/common.smk"
 include: "workflow/rules/parameters.smk"
 include: "workflow/rules/geometry.smk"

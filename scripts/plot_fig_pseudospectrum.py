@@ -15,6 +15,7 @@ def draw(
     cone_physical: str,
     *,
     levels_log10: Sequence[float],
+    norms: dict[str, str],
 ) -> Figure:
     """Plot contours of sigma_min(z I - M), labelled in powers of ten, with the eigenvalues."""
     levels = sorted(levels_log10)
@@ -35,7 +36,7 @@ def draw(
             axis.axvline(0, color="0.5", linewidth=0.6)
             axis.set_xlim(data["real"][0], data["real"][-1])
             axis.set_ylim(data["imag"][0], data["imag"][-1])
-            axis.set_title(f"{geometry}, {mode} mode, {_NORMS[mode]} norm")
+            axis.set_title(f"{geometry}, {mode} mode, {_NORMS[norms[mode]]} norm")
     for axis in axes[1]:
         axis.set_xlabel(r"Re $z$")
     for axis in axes[:, 0]:
@@ -45,7 +46,7 @@ def draw(
 
 
 _CMAP = "viridis"
-_NORMS = {"paper": "discrete", "physical": "$L_2$"}
+_NORMS = {"discrete": "discrete", "L2": "$L_2$"}
 
 if __name__ == "__main__":
     jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821

@@ -1,8 +1,8 @@
 """Check config.yaml against the schema before any job starts."""
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from math import atan, radians
+from collections.abc import Iterator, Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -10,12 +10,34 @@ import jsonschema
 import yaml
 from jsonschema.exceptions import ValidationError, best_match
 
-from hopper.errors import WallFrictionError
-from hopper.yield_conditions import yield_condition
+from support import relations, strict_yaml
+
+_MOST_VALUES = 20_000
+_DEEPEST = 20
+_MOST_BITS = 1024  # as many as the largest float
 
 
 class ConfigurationError(Exception):
     """A configuration value is wrong; the one-line message names the key and the remedy."""
+
+
+def check_file(path: str | Path, schema_path: str | Path) -> None:
+    """Check the text of a configuration file, before Snakemake reads it.
+
+    Raises
+    ------
+    ConfigurationError
+        If the file is not YAML, is easily misread, or has a section that the schema does not know.
+    """
+    try:
+        content = strict_yaml.read(path)
+    except strict_yaml.StrictYamlError as error:
+        raise ConfigurationError(str(error)) from None
+    sections = _schema(schema_path)["properties"]
+    for key in content:
+        if key not in sections:
+            message = f"config key '{key}' is unknown: remove it; see {Path(schema_path).name}"
+            raise ConfigurationError(strict_yaml.one_line(message))
 
 
 def check(config: Mapping[str, Any], schema_path: str | Path) -> None:
@@ -24,11 +46,12 @@ def check(config: Mapping[str, Any], schema_path: str | Path) -> None:
     Raises
     ------
     ConfigurationError
-        For the most relevant violation of the schema, a value that is not finite, or a wrong order.
+        For the most relevant violation of the schema, a value that is not finite, or two values
+        that contradict each other.
     """
     require_schema(config, schema_path)
-    _check_order(config)
-    _check_cases(config["cases"])
+    for key, problem in relations.violations(config):
+        raise ConfigurationError(f"config key '{key}': {problem}")
 
 
 def require_schema(
@@ -41,60 +64,57 @@ def require_schema(
     ConfigurationError
         For the most relevant violation, or a value that is not finite.
     """
-    for key, value in _leaves(data, ""):
-        if isinstance(value, float) and not math.isfinite(value):
-            raise ConfigurationError(f"{source} key '{key}' is {value}: give a finite number")
-    schema = yaml.safe_load(Path(schema_path).read_text(encoding="utf-8"))
-    error = best_match(jsonschema.Draft202012Validator(schema).iter_errors(data))
+    for count, (key, problem) in enumerate(_walk(data, "", 0)):
+        if count == _MOST_VALUES:
+            problem = f"is the last of more than {_MOST_VALUES} values: shorten the lists"
+        if problem:
+            raise ConfigurationError(strict_yaml.one_line(f"{source} key '{key}' {problem}"))
+    error = best_match(_validator(schema_path).iter_errors(data))
     if error is not None:
-        raise ConfigurationError(f"{source} {_explain(error, schema_path)}")
+        raise ConfigurationError(strict_yaml.one_line(f"{source} {_explain(error, schema_path)}"))
 
 
-def _check_order(config: Mapping[str, Any]) -> None:
-    """Check what a schema cannot: relations between two keys."""
-    for name, spectrum in config["spectra"].items():
-        if spectrum["coarse_nodes"] >= spectrum["nodes"]:
-            raise ConfigurationError(
-                f"config key 'spectra.{name}.coarse_nodes': {spectrum['coarse_nodes']} is not "
-                f"below nodes = {spectrum['nodes']}: the first mesh must be the finer one"
-            )
-    for key, value in _leaves(config, ""):
-        parent, _, name = key.rpartition(".")
-        if name == "stop" and value <= _get(config, parent).get("start", -math.inf):
-            raise ConfigurationError(f"config key '{key}': {value} must be above start")
-
-
-def _check_cases(cases: Sequence[Mapping[str, Any]]) -> None:
-    """Check what a schema cannot: names that repeat, and walls no material transmits."""
-    names: set[str] = set()
-    for index, case in enumerate(cases):
-        key = f"config key 'cases[{index}]"
-        if case["name"] in names:
-            raise ConfigurationError(f"{key}.name': {case['name']} is taken: give another name")
-        names.add(case["name"])
-        if case["model"] == "von-mises" and case["geometry"] == "wedge":
-            raise ConfigurationError(f"{key}.model': von-mises is formulated for cones only")
-        try:
-            yield_condition(case["model"]).wall_angle(radians(case["delta_deg"]), atan(case["mu"]))
-        except WallFrictionError as error:
-            raise ConfigurationError(f"{key}.mu': {error}") from None
-
-
-def _get(config: Mapping[str, Any], key: str) -> Any:
-    for name in key.split("."):
-        config = config[name]
-    return config
-
-
-def _leaves(value: Any, key: str) -> Iterator[tuple[str, Any]]:
-    if isinstance(value, Mapping):
+def _walk(value: Any, key: str, depth: int) -> Iterator[tuple[str, str]]:
+    """Yield every key, with what is wrong with its value whatever the schema, or nothing."""
+    if depth > _DEEPEST:
+        yield key, f"is nested deeper than {_DEEPEST} levels"
+    elif isinstance(value, Mapping):
+        yield key, ""
         for name, item in value.items():
-            yield from _leaves(item, f"{key}.{name}" if key else str(name))
+            if isinstance(name, str):
+                yield from _walk(item, f"{key}.{name}" if key else name, depth + 1)
+            else:
+                yield key or "top level", f"has a key that is not a word: {name!r:.40}"
     elif isinstance(value, list):
+        yield key, ""
         for index, item in enumerate(value):
-            yield from _leaves(item, f"{key}[{index}]")
+            yield from _walk(item, f"{key}[{index}]", depth + 1)
+    elif isinstance(value, float) and not math.isfinite(value):
+        yield key, f"is {value}: give a finite number"
+    elif isinstance(value, int) and value.bit_length() > _MOST_BITS:
+        yield key, f"is a number of {value.bit_length()} bits: give a smaller one"
+    elif value is None or isinstance(value, str | int | float):
+        yield key, ""
     else:
-        yield key, value
+        yield key, f"is a {type(value).__name__}: give a number, a text, a list or a mapping"
+
+
+@cache
+def _schema(schema_path: str | Path) -> dict[str, Any]:
+    schema: dict[str, Any] = yaml.safe_load(Path(schema_path).read_text(encoding="utf-8"))
+    return schema
+
+
+@cache
+def _validator(schema_path: str | Path) -> jsonschema.protocols.Validator:
+    base = jsonschema.Draft202012Validator
+    # To JSON 400.0 is an integer; to Python it is none, and it makes another file name.
+    integers = base.TYPE_CHECKER.redefine(
+        "integer", lambda _, value: isinstance(value, int) and not isinstance(value, bool)
+    )
+    extended = jsonschema.validators.extend(base, type_checker=integers)  # type: ignore[no-untyped-call]
+    validator: jsonschema.protocols.Validator = extended(_schema(schema_path))
+    return validator
 
 
 def _explain(error: ValidationError, schema_path: str | Path) -> str:

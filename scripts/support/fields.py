@@ -20,7 +20,7 @@ def angle(
 
 def steps(start: float, stop: float, step: float) -> np.ndarray:
     """Return values from start by steps, up to stop."""
-    return np.arange(start, stop + step / 2, step)
+    return np.arange(start, stop + 1e-6 * step, step)
 
 
 def axis(start: float, stop: float, points: int) -> np.ndarray:

@@ -1,18 +1,12 @@
 # =================================================================================================
-# Common: configuration check, import paths, and the code each rule depends on
+# Common: configuration check, and the code each rule depends on
 # =================================================================================================
 
-import sys
-
-from snakemake.exceptions import WorkflowError
-
-sys.path = [str(ROOT / "src"), str(ROOT / "scripts"), *sys.path]
-
-from support import code_graph, configuration, requests
+from support import code_graph, requests
 
 code_graph.let_scripts_import(ROOT)
 try:
-    configuration.check(config, ROOT / "workflow/schemas/config.schema.yaml")
+    configuration.check(config, SCHEMA)
 except configuration.ConfigurationError as error:
     raise WorkflowError(str(error)) from None
 

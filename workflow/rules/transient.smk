@@ -158,6 +158,7 @@ rule plot_fig_pseudospectrum:
     threads: 1
     params:
         levels_log10=PSEUDO["levels_log10"],
+        norms={mode: PSEUDO["modes"][mode]["norm"] for mode in PSEUDO["modes"]},
     script:
         "../../scripts/plot_fig_pseudospectrum.py"
 
