@@ -1,6 +1,7 @@
 # make          build every figure          make test   set up if needed, check and test
 # make report   results/report.html         make crate  results/hopper-crate.zip, of a finished run
 # make verify   find damaged results        make resume go on after a kill or a loss of power
+# make sbom     results/sbom.cdx.json, the packages of the locks; make audit: their known vulnerabilities
 # make bench    measure the speed figures   make lock   resolve the dependencies anew (needs uv)
 # make figures/fig_3_1.png                  build one figure
 # make cluster  the environment with Snakemake's SLURM executor; docs/cluster.md tells more
@@ -56,6 +57,15 @@ report: .venv/run.stamp
 
 crate: .venv/run.stamp
 	@PYTHONPATH=scripts $(BIN)/python -m publish.crate
+
+.PHONY: sbom audit
+
+sbom: .venv/test.stamp
+	@PYTHONPATH=scripts $(BIN)/python -m publish.sbom
+
+# Exit code 1 (of make: 2) for known vulnerabilities; without pip-audit or network it says so and ends with 0.
+audit: .venv/run.stamp
+	@PYTHONPATH=scripts $(BIN)/python -m publish.audit
 
 # Opens results/report.html in a headless Chromium.
 test-report: .venv/test.stamp

@@ -3,7 +3,6 @@
 import importlib.metadata
 import json
 import re
-import tomllib
 
 import jsonschema
 import pytest
@@ -13,35 +12,6 @@ from hopper import __version__
 from tests.workflow.conftest import ROOT
 
 RULES = "\n".join(path.read_text() for path in (ROOT / "workflow/rules").glob("*.smk"))
-
-
-def test_the_conda_pins_equal_the_lock():
-    environment = yaml.safe_load((ROOT / "envs/hopper.yaml").read_text())
-    lock = (ROOT / "requirements.lock").read_text()
-    python = next(pin for pin in environment["dependencies"] if pin.startswith("python="))
-    for pin in environment["dependencies"]:
-        name, wanted = pin.split("=")
-        if pin == python:
-            continue
-        locked = re.findall(rf"^{name}==([\w.]+)", lock, re.MULTILINE | re.IGNORECASE)
-        assert any(version.startswith(wanted) for version in locked), f"{pin}: lock has {locked}"
-
-
-def test_every_dependency_is_locked_with_a_hash():
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-    extras = project["optional-dependencies"]
-    runtime = (ROOT / "requirements.lock").read_text().lower()
-    development = (ROOT / "requirements-dev.lock").read_text().lower()
-    for wanted, lock in (
-        (project["dependencies"] + extras["workflow"], runtime),
-        (extras["dev"], development),
-    ):
-        for requirement in wanted:
-            name = re.match(r"[\w-]+", requirement)
-            assert name
-            assert re.search(rf"^{name[0].lower()}==.*\n +--hash=", lock, re.MULTILINE), requirement
-    for lock in (runtime, development):
-        assert "http" not in lock
 
 
 def test_each_script_belongs_to_the_rule_of_its_name():
