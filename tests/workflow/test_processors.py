@@ -22,9 +22,9 @@ PROCESSORS = {
     "SkylakeX": "",
 }
 SOME = (
-    *(f"results/radial/fig_3_{figure}.nc" for figure in (1, 2)),
-    *(f"results/borders/{hopper}_30.nc" for hopper in ("wedge", "cone")),
-    "results/map/cone_30.nc",
+    "results/radial/fig_3_2.nc",
+    "results/spectrum/fig_4_2/cone.nc",
+    "results/borders/cone_30.nc",
 )
 
 
