@@ -36,15 +36,17 @@ def test_every_artifact_describes_itself(built):
 
 
 def test_compliance_checker_finds_no_cf_error(built, tmp_path):
-    checker = Path(sys.executable).with_name("compliance-checker")
-    for path in files(built, "results", "*.nc"):
-        report = tmp_path / "report.json"
-        command = [checker, "--test=cf:1.11", "--format=json", f"--output={report}", path]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        assert report.exists(), done.stderr
-        result = json.loads(report.read_text())["cf:1.11"]
-        problems = [item["msgs"] for item in result["high_priorities"] if item["msgs"]]
-        problems += [item["msgs"] for item in result["medium_priorities"] if item["msgs"]]
+    checker, report = Path(sys.executable).with_name("compliance-checker"), tmp_path / "report.json"
+    paths = files(built, "results", "*.nc")
+    command = [checker, "--test=cf:1.11", "--format=json_new", f"--output={report}", *paths]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert report.exists(), done.stderr
+    results = json.loads(report.read_text())
+    assert results.keys() == {str(path) for path in paths}
+    for path, result in results.items():
+        checked = result["cf:1.11"]
+        problems = [item["msgs"] for item in checked["high_priorities"] if item["msgs"]]
+        problems += [item["msgs"] for item in checked["medium_priorities"] if item["msgs"]]
         assert not problems, f"{path}: {problems}"
 
 

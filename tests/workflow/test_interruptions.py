@@ -96,7 +96,11 @@ def test_one_job_killed(built, fresh):
 def test_two_runs_at_once(built, fresh):
     with started(fresh, *SOME) as process:
         wait_for(lambda: bool(jobs_of(process)))
+        at_work = jobs_of(process)[0]
+        # Held, so that the first run cannot end before the second begins.
+        at_work.suspend()
         second = fresh.snakemake(*SOME)
+        at_work.resume()
         assert second.returncode == 1
         assert "cannot be locked" in second.stderr
         assert "Traceback" not in second.stderr

@@ -235,6 +235,7 @@ def test_the_names_of_a_case_stay_names_and_its_description_is_text(fresh):
     assert {Path(kind.format(name)) for kind in kinds for name in names} <= made
 
 
+@pytest.mark.soak
 @pytest.mark.workflow
 def test_a_description_cannot_change_the_report(fresh):
     """What HTML, Snakemake, Jinja or TeX would read as theirs is refused."""
