@@ -94,11 +94,11 @@ def verify(path: str | Path) -> None:
     provenance = Path(path).with_suffix(".provenance.json")
     try:
         found = checksum(path)
+    except FileNotFoundError:
+        raise ArtifactError(
+            f"artifact {path} is missing: build it with: snakemake {path}"
+        ) from None
     except OSError as error:
-        if isinstance(error, FileNotFoundError):
-            raise ArtifactError(
-                f"artifact {path} is missing: build it with: snakemake {path}"
-            ) from None
         raise ArtifactError(f"artifact {path} cannot be read ({error.strerror})") from error
     try:
         recorded = json.loads(provenance.read_text(encoding="utf-8"))["sha256"]

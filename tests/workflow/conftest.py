@@ -13,6 +13,8 @@ from typing import Any
 import pytest
 import yaml
 
+from support.logs import checksum
+
 ROOT = Path(__file__).parents[2]
 CHECK = {"points": 1, "nodes": 80, "coarse_nodes": 40, "tolerance": 0.001}
 PARTS = ("Snakefile", "config.yaml", "workflow", "scripts", "src", "envs", "profiles", "resources",
@@ -73,6 +75,20 @@ class Workflow:
     def build(self, *targets: str, **variables: str) -> None:
         done = self.snakemake(*targets, **variables)
         assert done.returncode == 0, done.stderr
+
+    def products(self) -> dict[str, str]:
+        """Return the checksum of every artifact, table and figure that exists, by its path.
+
+        What tells of the time, provenance and logs, is left out; so are the hidden leftovers of
+        writers that were killed.
+        """
+        patterns = ("results/**/*.nc", "results/claims.*", "figures/*.p*")
+        paths = sorted(path for pattern in patterns for path in self.path.glob(pattern))
+        return {
+            str(path.relative_to(self.path)): checksum(path)
+            for path in paths
+            if not path.name.startswith(".")
+        }
 
     def reruns(self, *targets: str) -> set[str]:
         """Rules, with their figure if they have one, that a dry run would execute."""

@@ -12,23 +12,7 @@ from pathlib import Path
 
 import psutil
 
-from support.logs import checksum
 from tests.workflow.conftest import Workflow
-
-# What a run makes that holds nothing of the time, in the order of a listing.
-LASTING = ("results/**/*.nc", "results/claims.*", "figures/*.p*")
-
-
-def products(workflow: Workflow) -> dict[str, str]:
-    """Return the checksum of every artifact, table and figure that exists, by its path."""
-    root = workflow.path
-    paths = sorted(path for pattern in LASTING for path in root.glob(pattern))
-    # Leftovers of a killed writer are hidden, and are not results.
-    return {
-        str(path.relative_to(root)): checksum(path)
-        for path in paths
-        if not path.name.startswith(".")
-    }
 
 
 @contextlib.contextmanager
@@ -111,7 +95,7 @@ def killed_at_random(
                 wait_for(lambda: bool(jobs_of(process)) or process.poll() is not None)
             time.sleep(rng.uniform(0, 3))
             at_work += kill(process)
-        assert products(workflow).items() <= sound.items()
+        assert workflow.products().items() <= sound.items()
     return at_work
 
 

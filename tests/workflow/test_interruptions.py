@@ -15,7 +15,6 @@ from tests.workflow import interruptions
 from tests.workflow.interruptions import (
     jobs_of,
     killed_at_random,
-    products,
     resume,
     started,
     wait_for,
@@ -31,8 +30,16 @@ AS_ROOT = pytest.mark.skipif(
 )
 
 
+def completed(workflow, expected):
+    """Check that the targets are there and all files are the expected; return how many."""
+    found = workflow.products()
+    assert {*SOME} <= found.keys()
+    assert found.items() <= expected.items()
+    return len(found)
+
+
 def sound(built):
-    found = products(built)
+    found = built.products()
     assert len(found) > 60
     return found
 
@@ -41,15 +48,13 @@ def test_killed_at_random_moments(built, fresh):
     expected = sound(built)
     at_work = killed_at_random(fresh, expected, SHORT, random.Random(SEED), *SOME)
     resume(fresh, *SOME)
-    found = products(fresh)
-    assert {*SOME} <= found.keys()
-    assert found.items() <= expected.items()
+    compared = completed(fresh, expected)
     assert at_work > 0
     record(
         "kill_and_resume_short",
         "A few targets were built, and the run killed with all its processes (SIGKILL) at random "
         "moments, then resumed: the files are, byte for byte, those of an undisturbed run.",
-        {"moments killed": SHORT, "jobs at work then": at_work, "files compared": len(found),
+        {"moments killed": SHORT, "jobs at work then": at_work, "files compared": compared,
          "lost": 0},
     )  # fmt: skip
 
@@ -62,7 +67,7 @@ def test_killed_at_many_random_moments(built, copy_workflow, tmp_path):
         workflow = copy_workflow(tmp_path / str(turn))
         at_work += killed_at_random(workflow, expected, kills, rng)
         resume(workflow)
-        assert products(workflow) == expected
+        assert workflow.products() == expected
         assert workflow.publish("verify").returncode == 0
         assert interruptions.leftovers(workflow) == []
     record(
@@ -85,12 +90,10 @@ def test_one_job_killed(built, fresh):
     assert "Error in rule" in log
     assert "Traceback" not in log
     fresh.build(*SOME)
-    found = products(fresh)
-    assert {*SOME} <= found.keys()
-    assert found.items() <= sound(built).items()
+    compared = completed(fresh, sound(built))
     record("job_killed", "One job of a run was killed: the run ended with exit code 1 and the name "
            "of the rule, and the next run made what was missing.",
-           {"jobs killed": 1, "files compared": len(found), "lost": 0})  # fmt: skip
+           {"jobs killed": 1, "files compared": compared, "lost": 0})  # fmt: skip
 
 
 def test_two_runs_at_once(built, fresh):
@@ -105,12 +108,10 @@ def test_two_runs_at_once(built, fresh):
         assert "cannot be locked" in second.stderr
         assert "Traceback" not in second.stderr
         assert process.wait(timeout=300) == 0
-    found = products(fresh)
-    assert {*SOME} <= found.keys()
-    assert found.items() <= sound(built).items()
+    compared = completed(fresh, sound(built))
     record("two_runs_at_once", "A second run in the same directory is refused while the first "
            "works, and does not disturb it.",
-           {"runs refused": 1, "files compared": len(found), "lost": 0})  # fmt: skip
+           {"runs refused": 1, "files compared": compared, "lost": 0})  # fmt: skip
 
 
 @contextlib.contextmanager
@@ -132,17 +133,15 @@ def test_disk_full(built, fresh):
         assert done.returncode == 1
         assert re.search(r"No space left on device|\d+ bytes free on its disk", done.stderr)
         assert "unexpected error" not in done.stderr
-        partial = products(fresh)
+        partial = fresh.products()
         assert partial.items() <= expected.items()
         assert {*SOME} > partial.keys() & {*SOME}
         subprocess.run(["mount", "-o", "remount,size=64m", str(disk)], check=True)
         fresh.build(*SOME)
-        found = products(fresh)
-        assert {*SOME} <= found.keys()
-        assert found.items() <= expected.items()
+        compared = completed(fresh, expected)
     record("disk_full", "The disk of the results had 96 KiB: jobs ended with the reason, what they "
            "had begun was removed, and with space again the run was completed.",
-           {"files before": len(partial), "files compared": len(found), "lost": 0})  # fmt: skip
+           {"files before": len(partial), "files compared": compared, "lost": 0})  # fmt: skip
 
 
 @AS_ROOT
@@ -156,11 +155,11 @@ def test_results_read_only(built, rebuilt):
         assert "Write-protected output files for rule solve_radial" in done.stderr
         assert "results/radial/fig_3_1.nc" in done.stderr
         assert "Traceback" not in done.stderr
-    lost = expected.keys() - products(rebuilt).keys()
+    lost = expected.keys() - rebuilt.products().keys()
     assert not {path for path in lost if path.startswith("results")}
     rebuilt.set("radial.fig_3_1.delta_deg", 30)
     rebuilt.build()
-    assert products(rebuilt) == expected
+    assert rebuilt.products() == expected
     record("results_read_only", "With results/ read-only a run that had to change them ended with "
            "the reason and changed nothing; writable again, it went on.",
            {"files compared": len(expected), "lost": 0})  # fmt: skip

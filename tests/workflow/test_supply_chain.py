@@ -1,6 +1,5 @@
 """What the project is built from: hashed locks, a bill of materials; and runs without a network."""
 
-import hashlib
 import json
 import os
 import re
@@ -234,20 +233,10 @@ def run(offline: list[str], workflow: Workflow, *arguments: str) -> None:
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-def products(workflow: Workflow) -> dict[str, str]:
-    """Return checksums of all that is made, less the provenance, which tells when it was."""
-    return {
-        str(path.relative_to(workflow.path)): hashlib.sha256(path.read_bytes()).hexdigest()
-        for folder in ("results", "figures")
-        for path in (workflow.path / folder).rglob("*")
-        if path.suffix in {".nc", ".csv", ".html", ".md", ".png", ".pdf"} and path.stem != "README"
-    }
-
-
 @pytest.mark.workflow
 def test_some_figures_are_made_without_a_network(offline, built, fresh):
     run(offline, fresh, "snakemake", "--cores", "2", *SOME)
-    made, expected = products(fresh), products(built)
+    made, expected = fresh.products(), built.products()
     assert set(SOME) <= set(made)
     assert made == {name: expected[name] for name in made}
     record_offline("no_network", made)
@@ -267,8 +256,8 @@ def test_report_and_crate_are_made_without_a_network(offline, rebuilt):
 def test_everything_is_made_without_a_network(offline, built, tmp_path):
     workflow = copy(tmp_path / "offline")
     run(offline, workflow, "snakemake", "--cores", "2")
-    made = products(workflow)
-    assert made == {name: digest for name, digest in products(built).items() if name in made}
+    made = workflow.products()
+    assert made == {name: digest for name, digest in built.products().items() if name in made}
     assert len(made) > 80
     record_offline("no_network_long", made)
 
