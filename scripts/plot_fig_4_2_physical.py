@@ -32,7 +32,7 @@ def draw(wedge: str, cone: str, wedge_line: str, cone_line: str) -> Figure:
         bottom.set_title(f"{geometry}: approach to the line")
         bottom.set_xlabel(r"Re $\lambda - \Lambda$")
         bottom.set_ylabel(r"Im $\lambda$")
-        widest = float(np.abs(upper.real - line).max())
+        widest = float(np.abs(upper.real - line).max(initial=np.finfo(float).tiny))
         bottom.set_xlim(-1.15 * widest, 1.15 * widest)
         bottom.ticklabel_format(axis="x", style="sci", scilimits=(-2, 2), useMathText=True)
         bottom.legend()

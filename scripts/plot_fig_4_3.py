@@ -8,23 +8,23 @@ from support import artifacts, jobs, plotting
 def draw(wedge: str, cone: str) -> Figure:
     """Plot the norm of exp(-t M) over -t with both bounds, wedge left, cone right."""
     figure, axes = plotting.subplots(1, 2, height=2.8)
-    for axis, path, title in zip(axes, (wedge, cone), _TITLES, strict=True):
+    for axis, geometry, path in zip(axes, ("wedge", "cone"), (wedge, cone), strict=True):
         data = artifacts.read(path).isel(kept_in=0, norm=0, psi_scale=0)
+        abscissa = float(data.abscissa)
+        verdict = "stable" if abscissa < 0 else "unstable"
         axis.semilogy(data.elapsed, data.growth, color=plotting.BLUE, linewidth=0.9,
                       label=r"$\|\exp(-t M)\|$")  # fmt: skip
         axis.semilogy(data.elapsed, data.lower_bound, "k--", linewidth=0.9,
                       label=r"$e^{-t\alpha}$")  # fmt: skip
         axis.semilogy(data.elapsed, data.upper_bound, "k-", linewidth=0.9,
                       label=r"$\kappa(V)\,e^{-t\alpha}$")  # fmt: skip
-        axis.set_title(f"{title}, " rf"$\alpha$ = {float(data.abscissa):.3f}")
+        axis.set_title(rf"{geometry}, {verdict}, $\alpha$ = {abscissa:.3f}")
         axis.set_xlim(0, float(data.elapsed.max()))
         axis.set_xlabel(r"$-t = -\log r$")
     axes[0].set_ylabel("norm")
     axes[0].legend(loc="lower right")
     return figure
 
-
-_TITLES = ("wedge, unstable", "cone, stable")
 
 if __name__ == "__main__":
     jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821

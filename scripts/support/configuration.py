@@ -13,7 +13,6 @@ from jsonschema.exceptions import ValidationError, best_match
 from support import relations, strict_yaml
 
 _MOST_VALUES = 20_000
-_DEEPEST = 20
 _MOST_BITS = 1024  # as many as the largest float
 
 
@@ -76,8 +75,8 @@ def require_schema(
 
 def _walk(value: Any, key: str, depth: int) -> Iterator[tuple[str, str]]:
     """Yield every key, with what is wrong with its value whatever the schema, or nothing."""
-    if depth > _DEEPEST:
-        yield key, f"is nested deeper than {_DEEPEST} levels"
+    if depth > strict_yaml.DEEPEST:
+        yield key, f"is nested deeper than {strict_yaml.DEEPEST} levels"
     elif isinstance(value, Mapping):
         yield key, ""
         for name, item in value.items():

@@ -13,7 +13,7 @@ import yaml
 from yaml.nodes import MappingNode, Node, ScalarNode
 
 _MOST_BYTES = 60_000  # parsed in less than a second
-_DEEPEST = 20  # the schema has 6
+DEEPEST = 20  # the schema has 6
 _LONGEST_NUMBER = 40
 _LONGEST_TEXT = 400
 _PLAIN_NUMBER = re.compile(r"[-+]?(0|[1-9]\d*|(0|[1-9]\d*)?\.\d+|(0|[1-9]\d*)\.)(e[-+]?\d+)?", re.I)
@@ -72,8 +72,8 @@ class _Loader(yaml.SafeLoader):
             _refuse(event, f"&{event.anchor} and *{event.anchor}: write the values out")
         if event.tag is not None:
             _refuse(event, f"the tag {event.tag}: write the value without it")
-        if self.depth == _DEEPEST:
-            _refuse(event, f"more than {_DEEPEST} levels of nesting")
+        if self.depth == DEEPEST:
+            _refuse(event, f"more than {DEEPEST} levels of nesting")
         self.depth += 1
         node = super().compose_node(parent, index)
         self.depth -= 1

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.reliability import record
-from tests.workflow.conftest import Workflow, copy
+from tests.workflow.conftest import copy
 
 pytestmark = pytest.mark.slurm
 
@@ -19,16 +19,6 @@ COMMAND = [
     "--slurm-init-seconds-before-status-checks", "2",
 ]  # fmt: skip
 LIMIT = 1800  # seconds, beyond which something hangs
-
-
-def results(workflow: Workflow) -> dict[str, bytes]:
-    """Contents of all artifacts and figures; provenance, which has the time, left out."""
-    paths = [
-        *(workflow.path / "figures").glob("*.p??"),
-        *(workflow.path / "results").glob("claims.*"),
-        *(workflow.path / "results").rglob("*.nc"),
-    ]
-    return {str(path.relative_to(workflow.path)): path.read_bytes() for path in sorted(paths)}
 
 
 def submitted(log: str) -> list[str]:
@@ -47,7 +37,7 @@ def test_all_figures_are_the_bytes_of_a_local_run(local, tmp_path):
         COMMAND, cwd=workflow.path, capture_output=True, text=True, check=False, timeout=LIMIT
     )
     assert done.returncode == 0, done.stderr
-    expected, found = results(local), results(workflow)
+    expected, found = local.products(), workflow.products()
     assert len(expected) > 60
     assert list(found) == list(expected)
     assert [name for name in expected if found[name] != expected[name]] == []
@@ -88,7 +78,7 @@ def test_cancelled_jobs_are_retried(local, tmp_path):
     assert len(cancelled) == 3
     retried = text.count("Trying to restart job")
     assert retried == len(cancelled)
-    found, expected = results(workflow), results(local)
+    found, expected = workflow.products(), local.products()
     assert set(targets) <= set(found)
     assert [name for name in found if found[name] != expected[name]] == []
     record(
