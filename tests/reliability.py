@@ -6,6 +6,7 @@ what was recorded.
 
 import json
 import sys
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +29,25 @@ def record(name: str, what: str, figures: dict[str, Figure]) -> None:
     RECORDS.mkdir(exist_ok=True)
     text = json.dumps({"name": name, "what": what, "figures": figures}, indent=2)
     (RECORDS / f"{name}.json").write_text(text + "\n", encoding="utf-8")
+
+
+def comparison(
+    found: Mapping[str, str], expected: Mapping[str, str], wanted: Iterable[str] | None = None
+) -> dict[str, Figure]:
+    """Count how the files of a run compare with those of an undisturbed one.
+
+    Parameters
+    ----------
+    found, expected : mappings
+        Checksums by path.
+    wanted : iterable of str, optional
+        Paths that must be found; by default all that are expected.
+    """
+    return {
+        "files compared": len(found),
+        "with other bytes": sum(expected.get(path) != digest for path, digest in found.items()),
+        "lost": len({*(expected if wanted is None else wanted)} - found.keys()),
+    }
 
 
 def render(folder: Path = RECORDS) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.reliability import record
+from tests.reliability import comparison, record
 from tests.workflow.conftest import copy
 
 pytestmark = pytest.mark.slurm
@@ -48,7 +48,7 @@ def test_all_figures_are_the_bytes_of_a_local_run(local, tmp_path):
         "slurm",
         "All figures of the coarse workflow through a SLURM of one node, where a job beyond its "
         "request of memory or time is killed: artifacts and figures are the bytes of a local run.",
-        {"jobs run": len(jobs), "files compared": len(found), "files that differ": 0, "lost": 0},
+        {"jobs run": len(jobs), **comparison(found, expected)},
     )
 
 
@@ -89,7 +89,6 @@ def test_cancelled_jobs_are_retried(local, tmp_path):
             "jobs run": len(submitted(text)),
             "jobs cancelled": len(cancelled),
             "jobs retried": retried,
-            "artifacts compared": len(found),
-            "lost": 0,
+            **comparison(found, expected, targets),
         },
     )
