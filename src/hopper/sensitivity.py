@@ -9,13 +9,13 @@ from scipy.linalg import block_diag
 from hopper.chebyshev import Array
 from hopper.pseudospectrum import (
     SchurForm,
-    distance_to_instability,
     eigenvalue_condition_numbers,
     kreiss_lower_bound,
     pseudospectrum,
     schur_form,
     smallest_singular_values,
 )
+from hopper.robust_stability import distance_to_instability
 from hopper.transient import ModalBasis, match_kept, modal_matrix
 
 # Offsets from the abscissa, relative to it or to 1, scanned for the Kreiss bound.
