@@ -139,13 +139,13 @@ def _first_derivative(
     nodes: int, coarse_nodes: int, tolerance: float
 ) -> dict[str, fields.Variable]:
     agreeing = first_derivative.agreeing_eigenvalues(nodes, coarse_nodes, tolerance)
-    fine, coarse = (first_derivative.largest_condition(size) for size in (nodes, coarse_nodes))
+    fine, coarse = (first_derivative.digits_lost(size) for size in (nodes, coarse_nodes))
     return {
         "derivative_size": fields.number((), nodes - 1, "order of the matrix of d/dx"),
-        "derivative_condition": fields.number(
-            (), fine, "largest condition number of its eigenvalues"
+        "derivative_digits_lost": fields.number(
+            (), fine, "decimal digits that rounding costs its worst conditioned eigenvalue"
         ),
-        "derivative_condition_error": fields.number(
+        "derivative_digits_lost_error": fields.number(
             (), abs(fine - coarse), "change of it from the coarse mesh"
         ),
         "derivative_agreeing": fields.number(

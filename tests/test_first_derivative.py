@@ -8,9 +8,13 @@ import pytest
 from hopper import chebyshev
 from hopper.first_derivative import (
     agreeing_eigenvalues,
+    digits_lost,
     first_derivative_matrix,
     largest_condition,
 )
+from hopper.pseudospectrum import eigenvalue_condition_numbers, schur_form
+
+EPS = np.finfo(float).eps
 
 
 def test_the_matrix_differentiates():
@@ -41,6 +45,19 @@ def test_condition_grows_until_rounding():
     conditions = [largest_condition(n) for n in (8, 16, 24, 32)]
     assert all(after > 50 * before for before, after in pairwise(conditions))
     assert largest_condition(100) > 1e12
+
+
+@pytest.mark.parametrize("n", [200, 400])
+def test_many_digits_are_lost_whatever_the_rounding(n):
+    """Where the condition number itself is rounding, its magnitude is not."""
+    matrix = first_derivative_matrix(n)
+    rng = np.random.default_rng(4)
+    found = [digits_lost(n)]
+    for _ in range(4):
+        rounded = matrix * (1 + EPS * rng.uniform(-1, 1, matrix.shape))
+        found.append(np.log10(eigenvalue_condition_numbers(schur_form(rounded))[1].max()))
+    assert min(found) > 12
+    assert np.ptp(found) < 4
 
 
 def test_few_agree_where_most_of_a_second_order_operator_are_right():

@@ -144,10 +144,10 @@ def filter_removes_false_growth(
 
 
 def first_derivative_is_sensitive(linear: xr.Dataset, *, extraordinary: float) -> Finding:
-    condition = number(linear, "derivative_condition")
-    error = number(linear, "derivative_condition_error")
+    digits = number(linear, "derivative_digits_lost")
+    error = number(linear, "derivative_digits_lost_error")
     remark = "Limited by double precision itself; the error is the change from the coarse mesh."
-    return above(condition, extraordinary, error, remark)
+    return above(digits, extraordinary, error, remark)
 
 
 def first_derivative_has_no_eigenvalues(linear: xr.Dataset, *, few: float) -> Finding:

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import yaml
-
+from support import strict_yaml
 from support.configuration import ConfigurationError, require_schema
 
 
@@ -77,9 +76,9 @@ def paths_of(claims: Sequence[Claim]) -> list[str]:
 
 
 def _read(path: str | Path, schema: str | Path) -> dict[str, Any]:
-    content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+    content = strict_yaml.read_own(path)
     require_schema(content, schema, Path(path).name)
-    return dict(content)
+    return content
 
 
 def _claim(entry: dict[str, Any]) -> Claim:

@@ -8,6 +8,8 @@ References
    Numer. Anal. 24 (1987).
 """
 
+from math import log10
+
 import numpy as np
 
 from hopper import chebyshev
@@ -24,6 +26,15 @@ def first_derivative_matrix(n: int) -> Array:
 def largest_condition(n: int) -> float:
     """Return the largest condition number of an eigenvalue of the matrix on ``n`` nodes."""
     return float(eigenvalue_condition_numbers(schur_form(first_derivative_matrix(n)))[1].max())
+
+
+def digits_lost(n: int) -> float:
+    """Return the decimal digits that rounding costs the worst conditioned eigenvalue.
+
+    The logarithm of its condition number on ``n`` nodes. It is a lower bound above about
+    14, where double precision does not resolve the condition number itself.
+    """
+    return log10(largest_condition(n))
 
 
 def agreeing_eigenvalues(n: int, coarse_n: int, tolerance: float) -> int:

@@ -353,8 +353,8 @@ CHANGES = {
     "wedge_agrees_with_theory": {("exact", "eigenvalue_imag"): times(1.01)},
     "cone_agrees_with_theory": {("exact", "eigenvalue_imag"): times(1.01)},
     "first_derivative_is_sensitive": {
-        ("linear", "derivative_condition"): constant(10),
-        ("linear", "derivative_condition_error"): constant(1),
+        ("linear", "derivative_digits_lost"): constant(1),
+        ("linear", "derivative_digits_lost_error"): constant(0.1),
     },
     "first_derivative_has_no_eigenvalues": {("linear", "derivative_agreeing"): constant(60)},
     "like_a_second_order_operator": {
