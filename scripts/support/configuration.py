@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 import jsonschema
-import yaml
 from jsonschema.exceptions import ValidationError, best_match
 
 from support import relations, strict_yaml
@@ -100,8 +99,7 @@ def _walk(value: Any, key: str, depth: int) -> Iterator[tuple[str, str]]:
 
 @cache
 def _schema(schema_path: str | Path) -> dict[str, Any]:
-    schema: dict[str, Any] = yaml.safe_load(Path(schema_path).read_text(encoding="utf-8"))
-    return schema
+    return strict_yaml.read_own(schema_path)
 
 
 @cache
