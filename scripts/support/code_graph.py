@@ -34,13 +34,16 @@ def modules_used_by(root: Path, script: str) -> list[str]:
     """Return the files, sorted, that ``script`` imports from this project, directly or not.
 
     ``root`` is the repository, ``script`` a path below it. Importing a module also runs the
-    ``__init__`` of its package; the plot style goes with the module that loads it.
+    ``__init__`` of its packages; the plot style goes with the module that loads it.
     """
     graph = _graph()
     modules: set[str] = set()
-    for module in _imported(root / script) & graph.modules:
-        modules |= {module} | graph.find_upstream_modules(module)
-    modules |= {module.split(".")[0] for module in modules}
+    ahead = _imported(root / script) & graph.modules
+    while ahead:
+        module = ahead.pop()
+        modules.add(module)
+        package = {module.rpartition(".")[0]} - {""}
+        ahead |= (graph.find_modules_directly_imported_by(module) | package) - modules
     files = {_file(root, module) for module in modules}
     if "support.plotting" in modules:
         files.add(root / "scripts/support/paper.mplstyle")

@@ -68,7 +68,7 @@ def users_of(module: str) -> set[str]:
             package, *rest = name.split(".")
             folder = "src" if package in ("hopper", "hopper_cli") else "scripts"
             file = ROOT.joinpath(folder, package, *rest)
-            file = file.with_suffix(".py")
+            file = file / "__init__.py" if file.is_dir() else file.with_suffix(".py")
             if file.is_file() and name not in seen:
                 seen.add(name)
                 reaches(file, seen)
@@ -97,7 +97,7 @@ def test_editing_a_module_reruns_exactly_its_users(rebuilt: Workflow, module: st
 
 
 def test_touching_a_module_reruns_nothing(rebuilt):
-    for path in (rebuilt.path / "src/hopper").glob("*.py"):
+    for path in (rebuilt.path / "src/hopper").rglob("*.py"):
         os.utime(path, (time.time() + 60, time.time() + 60))
     assert rebuilt.reruns() == set()
 
