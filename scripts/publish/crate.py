@@ -11,12 +11,12 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-import yaml
 from rocrate.model.contextentity import ContextEntity
 from rocrate.model.entity import Entity
 from rocrate.rocrate import ROCrate
 
 from publish import run
+from support import strict_yaml
 from support.artifacts import checksum, replacing
 
 WORKFLOW, CONFIGURATION, CITATION = Path("Snakefile"), Path("config.yaml"), Path("CITATION.cff")
@@ -54,7 +54,7 @@ def write_crate(path: Path) -> None:
     workflow = crate.add_workflow(
         WORKFLOW, WORKFLOW, main=True, lang="snakemake", properties=_properties(WORKFLOW)
     )
-    _describe(crate, workflow, yaml.safe_load(CITATION.read_text(encoding="utf-8")), finished)
+    _describe(crate, workflow, strict_yaml.read_own(CITATION), finished)
     for file in _files_below(CODE):
         if file not in data:
             crate.add_file(file, file, properties=_properties(file))

@@ -2,7 +2,7 @@
 
 YAML reads 010 as 8, 1:30 as 90, no as false, and takes the last of two equal keys; Snakemake goes
 further and runs a file as a program where it says ``__use_yte__``. None of this is let through, nor
-what can make a small file a huge configuration.
+what can make a small file a huge configuration. The workflow's own files need none of this.
 """
 
 import re
