@@ -15,11 +15,11 @@ from time import process_time
 import numpy as np
 from scipy.linalg import eigvals
 
-from hopper.collocation import paper_matrix
+from hopper.domain.stability_map import sweep_friction
 from hopper.problem import Hopper
-from hopper.radial import RadialSolution, solve_radial
-from hopper.spectrum import relative_changes
-from hopper.stability_map import sweep_friction
+from hopper.radial.solution import RadialSolution, solve_radial
+from hopper.spectral.matching import relative_changes
+from hopper.stability.collocation import paper_matrix
 
 MESHES = (400, 200)
 TOLERANCE = 1e-3

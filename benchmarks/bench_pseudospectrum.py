@@ -9,12 +9,13 @@ from statistics import median
 import numpy as np
 from numpy.typing import NDArray
 
-from hopper.chebyshev import clenshaw_curtis_weights
-from hopper.collocation import half_matrix, paper_matrix
 from hopper.problem import Hopper
-from hopper.pseudospectrum import SchurForm, schur_form, smallest_singular_values
-from hopper.radial import solve_radial
-from hopper.transient import half_weights
+from hopper.radial.solution import solve_radial
+from hopper.spectral.chebyshev import clenshaw_curtis_weights
+from hopper.spectral.pseudospectrum import smallest_singular_values
+from hopper.spectral.schur import SchurForm, schur_form
+from hopper.stability.collocation import half_matrix, paper_matrix
+from hopper.stability.transient import half_weights
 
 NODES = 400
 # Half width in Re z, largest Im z: the window of a figure, and one mostly far from the spectrum.

@@ -18,10 +18,11 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_bvp
 
-from hopper.chebyshev import Array
+from hopper.arrays import Array
 from hopper.problem import Geometry, Hopper
-from hopper.radial import RadialSolution, solve_radial
-from hopper.radial_collocation import half_grid, newton
+from hopper.radial.collocation import newton
+from hopper.radial.grid import half_grid
+from hopper.radial.solution import RadialSolution, solve_radial
 
 TARGET = 1e-10
 REPEATS, CALLS = 15, 20

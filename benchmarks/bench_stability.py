@@ -12,12 +12,15 @@ from time import perf_counter
 import numpy as np
 from scipy.linalg import eigvals
 
-from hopper import chebyshev
-from hopper.collocation import paper_matrix
+from hopper.arrays import Complex
 from hopper.problem import Geometry, Hopper
-from hopper.radial import RadialSolution, solve_radial
-from hopper.spectrum import Complex, convergence_filter, mesh_spectrum, relative_changes
-from hopper.stability import Stability, stability, upper_eigenvalues
+from hopper.radial.solution import RadialSolution, solve_radial
+from hopper.spectral import chebyshev
+from hopper.spectral.matching import relative_changes
+from hopper.stability.collocation import paper_matrix
+from hopper.stability.convergence_filter import convergence_filter
+from hopper.stability.mesh_spectrum import mesh_spectrum
+from hopper.stability.modes import LinearStability, linear_stability, upper_eigenvalues
 
 MESHES = (400, 200)
 TOLERANCE = 1e-3
@@ -35,8 +38,8 @@ def by_the_paper(solution: RadialSolution) -> float:
     return float(fine[relative_changes(fine, coarse, "nearest") < TOLERANCE].real.max())
 
 
-def by_line_and_low_modes(hopper: Hopper) -> Stability:
-    return stability(solve_radial(hopper, 0.0))
+def by_line_and_low_modes(hopper: Hopper) -> LinearStability:
+    return linear_stability(solve_radial(hopper, 0.0))
 
 
 def filtered_spectrum(hopper: Hopper) -> None:

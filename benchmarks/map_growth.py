@@ -22,7 +22,7 @@ import judge_claims
 import merge_map
 import plot_fig_4_5_map
 from claims.words import paths_of, read_claims
-from hopper.stability_map import Sweep
+from hopper.domain.stability_map import Sweep
 from support import plotting
 
 MAP = {

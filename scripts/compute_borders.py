@@ -7,10 +7,11 @@ from typing import Any, get_args
 import numpy as np
 import xarray as xr
 
-from hopper.domain import ROOT_TOLERANCE, borders, neutral_curve, neutral_delta
-from hopper.family import End
+from hopper.domain.borders import borders
+from hopper.domain.neutral import ROOT_TOLERANCE, neutral_curve, neutral_delta
 from hopper.problem import Hopper, as_geometry
-from hopper.radial import solve_radial
+from hopper.radial.friction_limit import End
+from hopper.radial.solution import solve_radial
 from support import artifacts, fields, jobs, paper_checks
 
 

@@ -3,7 +3,7 @@
 import logging
 from typing import Any
 
-from hopper.assessment import assess
+from hopper.assessment.summary import assess
 from hopper_cli.datasets import assessment_dataset
 from hopper_cli.inputs import Case, Wall
 from support import artifacts, jobs

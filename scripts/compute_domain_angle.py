@@ -7,13 +7,8 @@ from math import radians
 import numpy as np
 import xarray as xr
 
-from hopper.domain import (
-    NoNeutralPointError,
-    neutral_curve,
-    neutral_delta,
-    stable_area,
-    tangency_curve,
-)
+from hopper.domain.borders import stable_area, tangency_curve
+from hopper.domain.neutral import NoNeutralPointError, neutral_curve, neutral_delta
 from support import artifacts, fields, jobs
 
 

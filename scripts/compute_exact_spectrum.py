@@ -5,7 +5,7 @@ from math import radians
 import numpy as np
 import xarray as xr
 
-from hopper import smooth_wall
+from hopper.stability import smooth_wall
 from support import artifacts, fields, jobs
 
 

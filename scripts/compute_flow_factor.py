@@ -8,9 +8,9 @@ import pandas as pd
 import xarray as xr
 
 from hopper.errors import NoRadialSolutionError
-from hopper.flow_factor import flow_factor
 from hopper.problem import Hopper, as_geometry
-from hopper.radial import solve_radial
+from hopper.radial.flow_factor import flow_factor
+from hopper.radial.solution import solve_radial
 from support import artifacts, fields, jobs
 
 

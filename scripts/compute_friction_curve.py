@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from hopper.domain import tangency_friction
-from hopper.family import friction_limit
-from hopper.radial import solve_radial
-from hopper.stability_map import sweep_friction
+from hopper.domain.borders import tangency_friction
+from hopper.domain.stability_map import sweep_friction
+from hopper.radial.friction_limit import friction_limit
+from hopper.radial.solution import solve_radial
 from support import artifacts, fields, hoppers, jobs, maps, paper_checks
 
 

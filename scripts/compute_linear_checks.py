@@ -7,10 +7,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from hopper import first_derivative, smooth_operator, smooth_wall
-from hopper.printed import compare_linearised
+from hopper.evidence import first_derivative, smooth_operator
+from hopper.evidence.printed import compare_linearised
 from hopper.problem import Geometry
-from hopper.transient import modal_basis, oscillation
+from hopper.spectral.transient import oscillation
+from hopper.stability import smooth_wall
+from hopper.stability.transient import modal_basis
 from support import artifacts, fields, hoppers, jobs, modes
 
 

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from hopper.stability_map import sweep_friction
+from hopper.domain.stability_map import sweep_friction
 from support import artifacts, fields, hoppers, jobs, maps
 
 

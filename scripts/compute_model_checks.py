@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from hopper import printed
-from hopper.characteristics import real_characteristics
-from hopper.family import FrictionLimit, friction_limit
-from hopper.linearisation import tangency_angle
-from hopper.motion import check_field, levy_factor
+from hopper.evidence import printed
+from hopper.evidence.characteristics import real_characteristics
+from hopper.evidence.motion import check_field, levy_factor
 from hopper.problem import Hopper, as_geometry
-from hopper.radial import radial_solutions
-from hopper.velocity import solve_velocity
+from hopper.radial.friction_limit import FrictionLimit, friction_limit
+from hopper.radial.solution import radial_solutions
+from hopper.radial.velocity import solve_velocity
+from hopper.stability.linearisation import tangency_angle
 from hopper.yield_conditions import VON_MISES, YieldCondition, yield_condition
 from support import artifacts, fields, jobs
 

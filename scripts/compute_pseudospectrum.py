@@ -6,10 +6,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from hopper.collocation import Half, half_matrix
-from hopper.pseudospectrum import pseudospectrum, schur_form
-from hopper.spectrum import HALVES
-from hopper.transient import Norm, half_weights
+from hopper.spectral.pseudospectrum import pseudospectrum
+from hopper.spectral.schur import schur_form
+from hopper.stability.collocation import Half, half_matrix
+from hopper.stability.mesh_spectrum import HALVES
+from hopper.stability.transient import Norm, half_weights
 from support import artifacts, fields, hoppers, jobs
 
 

@@ -6,23 +6,17 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from hopper.collocation import half_matrix
-from hopper.pseudospectrum import schur_form
-from hopper.sensitivity import (
+from hopper.spectral.schur import schur_form
+from hopper.spectral.sensitivity import (
     kept_condition_numbers,
     kept_form,
     kept_sensitivity,
     resolvent_norm,
 )
-from hopper.spectrum import HALVES
-from hopper.transient import (
-    Norm,
-    abscissa,
-    condition_number,
-    half_weights,
-    modal_basis,
-    propagator_norm,
-)
+from hopper.spectral.transient import abscissa, condition_number, propagator_norm
+from hopper.stability.collocation import half_matrix
+from hopper.stability.mesh_spectrum import HALVES
+from hopper.stability.transient import Norm, half_weights, modal_basis
 from support import artifacts, fields, hoppers, jobs, modes
 
 

@@ -5,8 +5,8 @@ from math import degrees, radians
 import numpy as np
 import xarray as xr
 
-from hopper import smooth_wall
 from hopper.problem import Geometry
+from hopper.stability import smooth_wall
 from support import artifacts, fields, jobs
 
 

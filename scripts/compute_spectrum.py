@@ -4,7 +4,7 @@ import logging
 
 import xarray as xr
 
-from hopper.spectrum import mesh_spectrum
+from hopper.stability.mesh_spectrum import mesh_spectrum
 from support import artifacts, fields, hoppers, jobs, modes
 
 

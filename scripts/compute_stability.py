@@ -4,7 +4,7 @@ import logging
 
 import xarray as xr
 
-from hopper.stability import stability
+from hopper.stability.modes import linear_stability
 from support import artifacts, fields, hoppers, jobs
 
 
@@ -18,7 +18,7 @@ def compute_stability(
     mu: float,
 ) -> None:
     """Compute the verdict of stability that needs no large mesh."""
-    result = stability(hoppers.radial_solution(geometry, delta_deg, half_angle_deg, mu))
+    result = linear_stability(hoppers.radial_solution(geometry, delta_deg, half_angle_deg, mu))
     logging.info(
         "%s: abscissa %.10f (%s), line %.10f",
         geometry,

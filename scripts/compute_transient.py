@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from hopper.transient import NORMS, Norm, abscissa, condition_number, modal_basis, propagator_norm
+from hopper.spectral.transient import abscissa, condition_number, propagator_norm
+from hopper.stability.transient import NORMS, Norm, modal_basis
 from support import artifacts, fields, hoppers, jobs, modes
 
 

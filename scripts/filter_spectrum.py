@@ -4,7 +4,9 @@ import logging
 
 import xarray as xr
 
-from hopper.spectrum import MeshSpectrum, convergence_filter, unbroken_run
+from hopper.spectral.matching import unbroken_run
+from hopper.stability.convergence_filter import convergence_filter
+from hopper.stability.mesh_spectrum import MeshSpectrum
 from support import artifacts, fields, jobs, modes
 
 

@@ -8,8 +8,8 @@ import numpy as np
 import xarray as xr
 
 from hopper.problem import Hopper, as_geometry
-from hopper.radial import solve_radial as solve
-from hopper.velocity import solve_velocity
+from hopper.radial.solution import solve_radial as solve
+from hopper.radial.velocity import solve_velocity
 from hopper.yield_conditions import yield_condition
 from support import artifacts, jobs
 

@@ -8,7 +8,7 @@ from scipy.optimize import minimize_scalar
 
 from hopper.errors import InvalidParameterError, WallFrictionError
 from hopper.yield_conditions import MOHR_COULOMB, VON_MISES, yield_condition
-from tests import radial_witness as witness
+from tests.radial import witness
 
 MODELS = {"mohr-coulomb": MOHR_COULOMB, "von-mises": VON_MISES}
 PSI = np.linspace(-1.5, 1.5, 61)

@@ -3,7 +3,7 @@
 from math import atan, radians
 
 from hopper.problem import Hopper, as_geometry
-from hopper.radial import RadialSolution, solve_radial
+from hopper.radial.solution import RadialSolution, solve_radial
 
 
 def mohr_coulomb(geometry: str, delta_deg: float, half_angle_deg: float) -> Hopper:

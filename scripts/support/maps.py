@@ -5,7 +5,7 @@ from typing import Any
 
 import xarray as xr
 
-from hopper.stability_map import REGIONS, Sweep
+from hopper.domain.stability_map import REGIONS, Sweep
 from support.fields import Variable, flag, number
 
 

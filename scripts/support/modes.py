@@ -5,8 +5,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from hopper.collocation import Half
-from hopper.spectrum import HALVES, REASONS
+from hopper.stability.collocation import Half
+from hopper.stability.convergence_filter import REASONS
+from hopper.stability.mesh_spectrum import HALVES
 from support import fields
 
 MODES = ("paper", "physical")

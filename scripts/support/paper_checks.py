@@ -6,9 +6,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from hopper.errors import ConvergenceError
-from hopper.radial import RadialSolution
-from hopper.spectrum import PaperAbscissa, paper_abscissa
-from hopper.stability import stability
+from hopper.radial.solution import RadialSolution
+from hopper.stability.modes import linear_stability
+from hopper.stability.paper_abscissa import PaperAbscissa, paper_abscissa
 from support.fields import Variable, number
 
 _MEANING = {
@@ -33,7 +33,7 @@ def check_variables(
     """
     found = [_by_the_paper(one, nodes, coarse_nodes, tolerance) for one in solutions]
     columns = {
-        "abscissa": [stability(one).abscissa for one in solutions],
+        "abscissa": [linear_stability(one).abscissa for one in solutions],
         "as_worded": [one.as_worded if one else np.nan for one in found],
         "physical": [one.physical if one else np.nan for one in found],
     }

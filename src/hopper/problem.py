@@ -8,7 +8,7 @@ from typing import Literal, cast, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
-from hopper.chebyshev import Array
+from hopper.arrays import Array
 from hopper.errors import InvalidParameterError
 from hopper.yield_conditions import MOHR_COULOMB, VON_MISES, YieldCondition
 

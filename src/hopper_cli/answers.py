@@ -5,13 +5,11 @@ from math import degrees
 
 import numpy as np
 
-from hopper.assessment import (
-    Limits,
-    NeutralPoint,
-    Quantity,
-    RadialAssessment,
-    StabilityAssessment,
-)
+from hopper.assessment.limits import Limits
+from hopper.assessment.neutral import NeutralPoint
+from hopper.assessment.quantity import Quantity
+from hopper.assessment.radial import RadialAssessment
+from hopper.assessment.stability import StabilityAssessment
 from hopper_cli.rows import Column, Row
 
 Part = RadialAssessment | StabilityAssessment

@@ -8,12 +8,16 @@ from math import isfinite, radians
 from pathlib import Path
 from typing import Any
 
-from hopper import assessment
-from hopper.assessment import Quantity
-from hopper.domain import NoNeutralPointError
+from hopper.assessment.limits import assess_limits, tangency_coefficient
+from hopper.assessment.neutral import assess_neutral, largest_neutral_coefficient
+from hopper.assessment.quantity import Quantity
+from hopper.assessment.radial import assess_radial
+from hopper.assessment.stability import assess_stability
+from hopper.assessment.summary import assess
+from hopper.domain.neutral import NoNeutralPointError
 from hopper.errors import ConvergenceError, HopperError, TangencyError, WallFrictionError
 from hopper.problem import as_geometry
-from hopper.radial import solve_radial
+from hopper.radial.solution import solve_radial
 from hopper_cli import answers, text
 from hopper_cli.answers import Part
 from hopper_cli.errors import UsageError
@@ -39,9 +43,9 @@ def answer(options: Namespace) -> str:
 def _radial(options: Namespace) -> str:
     case = _case(options)
     try:
-        found = assessment.assess_radial(case.hopper, case.wall.friction_angle)
+        found = assess_radial(case.hopper, case.wall.friction_angle)
     except ConvergenceError as error:
-        limit = assessment.assess_limits(case.hopper).coefficient
+        limit = assess_limits(case.hopper).coefficient
         raise _explained(error, "a radial solution", limit) from None
     _write(options, case, found)
     rows = answers.radial_rows(found)
@@ -69,15 +73,15 @@ def _stability(options: Namespace) -> str:
     hopper = case.hopper
     solution = solve_radial(hopper, case.wall.friction_angle)
     try:
-        found = assessment.assess_stability(solution)
+        found = assess_stability(solution)
     except (TangencyError, ConvergenceError) as error:
-        limit = assessment.tangency_coefficient(hopper)
-        if limit is None and assessment.assess(hopper, 0.0).outcome == "tangent_characteristic":
+        limit = tangency_coefficient(hopper)
+        if limit is None and assess(hopper, 0.0).outcome == "tangent_characteristic":
             raise HopperError(f"{error}; not even a smooth wall has a verdict") from None
         raise _explained(error, "a verdict", limit) from None
     _write(options, case, found)
     rows = answers.stability_rows(found)
-    rows.append(answers.tangency_row(assessment.tangency_coefficient(hopper)))
+    rows.append(answers.tangency_row(tangency_coefficient(hopper)))
     modes = found.result.eigenvalues
     if options.json:
         return _json(
@@ -104,9 +108,9 @@ def _neutral(options: Namespace) -> str:
     geometry, half_angle = as_geometry(options.geometry), radians(options.half_angle)
     wall = Wall.of(options.mu, options.phi)
     try:
-        found = assessment.assess_neutral(geometry, half_angle, wall.friction_angle)
+        found = assess_neutral(geometry, half_angle, wall.friction_angle)
     except NoNeutralPointError as error:
-        limit = assessment.largest_neutral_coefficient(geometry, half_angle)
+        limit = largest_neutral_coefficient(geometry, half_angle)
         raise _explained(error, "a neutral delta", limit) from None
     rows = answers.neutral_rows(found)
     inputs = {"geometry": geometry, "half_angle_deg": options.half_angle, **asdict(wall)}

@@ -6,8 +6,10 @@ from typing import get_args
 
 import xarray as xr
 
-from hopper.assessment import OUTCOMES, Assessment, RadialAssessment, StabilityAssessment
-from hopper.family import End
+from hopper.assessment.radial import RadialAssessment
+from hopper.assessment.stability import StabilityAssessment
+from hopper.assessment.summary import OUTCOMES, Assessment
+from hopper.radial.friction_limit import End
 from hopper_cli import answers, cf
 from hopper_cli.answers import Part
 from hopper_cli.inputs import Case

@@ -5,7 +5,7 @@ from pathlib import Path
 import matplotlib
 from matplotlib.figure import Figure
 
-from hopper.assessment import RadialAssessment
+from hopper.assessment.radial import RadialAssessment
 from hopper_cli import answers, drawing
 from hopper_cli.answers import Part
 from hopper_cli.files import replacing

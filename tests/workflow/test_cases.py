@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import yaml
 
-from hopper.assessment import OUTCOMES, assess
+from hopper.assessment.summary import OUTCOMES, assess
 from hopper.problem import Hopper
 from support import artifacts, configuration, fields
 from tests.workflow.conftest import ROOT

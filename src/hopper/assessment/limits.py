@@ -6,17 +6,17 @@ from math import pi, tan
 import numpy as np
 
 from hopper.assessment.quantity import ROUNDING, Quantity, with_errors
-from hopper.domain import tangency_friction
+from hopper.domain.borders import tangency_friction
 from hopper.errors import (
     ConvergenceError,
     HopperError,
     InvalidParameterError,
     NoRadialSolutionError,
 )
-from hopper.family import FrictionLimit, friction_limit
-from hopper.mass_flow import mass_flow_friction_angle
 from hopper.problem import Hopper
-from hopper.radial import solve_radial
+from hopper.radial.friction_limit import FrictionLimit, friction_limit
+from hopper.radial.mass_flow import mass_flow_friction_angle
+from hopper.radial.solution import solve_radial
 from hopper.yield_conditions import MOHR_COULOMB
 
 # Step in phi for a slope, radians.

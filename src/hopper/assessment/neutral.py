@@ -7,10 +7,10 @@ from typing import Literal
 from hopper.assessment.limits import coefficient
 from hopper.assessment.quantity import Quantity
 from hopper.assessment.stability import abscissa_with_error
-from hopper.domain import NoNeutralPointError, neutral_curve, neutral_delta
+from hopper.domain.neutral import NoNeutralPointError, neutral_curve, neutral_delta
 from hopper.problem import Geometry, Hopper
-from hopper.radial import solve_radial
-from hopper.stability import stability
+from hopper.radial.solution import solve_radial
+from hopper.stability.modes import linear_stability
 
 # Steps, in radians: in delta for a slope, and in phi along the curve.
 _STEP, _PHI_STEP = 1e-6, 0.035
@@ -42,7 +42,7 @@ def assess_neutral(geometry: Geometry, half_angle: float, friction_angle: float)
         for angle in (delta, delta + _STEP)
     )
     result, _, abscissa = abscissa_with_error(at)
-    slope = (stability(beyond).abscissa - abscissa.value) / _STEP
+    slope = (linear_stability(beyond).abscissa - abscissa.value) / _STEP
     error = (abs(abscissa.value) + abscissa.error) / abs(slope)
     return NeutralPoint(Quantity(delta, error), result.governed_by)
 

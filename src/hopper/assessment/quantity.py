@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hopper.chebyshev import Array
-from hopper.radial import RadialSolution
+from hopper.arrays import Array
+from hopper.radial.solution import RadialSolution
 
 ROUNDING = 4 * float(np.finfo(float).eps)
 # Shift of the fields for first-order propagation, relative to their size.

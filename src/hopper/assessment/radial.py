@@ -4,16 +4,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hopper.arrays import Array
 from hopper.assessment.limits import Limits, assess_limits
 from hopper.assessment.quantity import SHIFT, Quantity, wall_angle_rounding, with_errors
-from hopper.chebyshev import Array
 from hopper.errors import ConvergenceError, NoRadialSolutionError, SingularVelocityError
-from hopper.family import members_with_wall_angle
-from hopper.flow_factor import flow_factor
 from hopper.problem import Hopper
-from hopper.radial import RadialSolution, solve_radial
-from hopper.radial_collocation import Member
-from hopper.velocity import VelocityField, solve_velocity
+from hopper.radial.collocation import Member
+from hopper.radial.flow_factor import flow_factor
+from hopper.radial.members import members_with_wall_angle
+from hopper.radial.solution import RadialSolution, solve_radial
+from hopper.radial.velocity import VelocityField, solve_velocity
 
 
 @dataclass(frozen=True)

@@ -8,13 +8,15 @@ from typing import Literal
 import numpy as np
 from scipy.optimize import minimize_scalar
 
+from hopper.arrays import Array, Complex
 from hopper.assessment.quantity import ROUNDING, Quantity, propagated
-from hopper.chebyshev import Array
 from hopper.errors import ConvergenceError
-from hopper.radial import RadialSolution
-from hopper.spectrum import HALVES, convergence_filter, mesh_spectrum
-from hopper.stability import Complex, Stability, stability, upper_eigenvalues
-from hopper.transient import ModalBasis, condition_number, modal_basis, propagator_norm
+from hopper.radial.solution import RadialSolution
+from hopper.spectral.transient import ModalBasis, condition_number, propagator_norm
+from hopper.stability.convergence_filter import convergence_filter
+from hopper.stability.mesh_spectrum import HALVES, mesh_spectrum
+from hopper.stability.modes import LinearStability, linear_stability, upper_eigenvalues
+from hopper.stability.transient import modal_basis
 
 Verdict = Literal["stable", "unstable", "neutral"]
 
@@ -58,7 +60,7 @@ class StabilityAssessment:
 
     Attributes
     ----------
-    result : Stability
+    result : LinearStability
         Low modes, line, and what governs.
     mode_errors : array, shape (n,)
         Absolute errors of the low modes.
@@ -71,7 +73,7 @@ class StabilityAssessment:
         None where too few modes are resolved.
     """
 
-    result: Stability
+    result: LinearStability
     mode_errors: Array
     abscissa: Quantity
     spectrum: Complex
@@ -110,9 +112,9 @@ def assess_stability(solution: RadialSolution) -> StabilityAssessment:
     )
 
 
-def abscissa_with_error(solution: RadialSolution) -> tuple[Stability, Array, Quantity]:
+def abscissa_with_error(solution: RadialSolution) -> tuple[LinearStability, Array, Quantity]:
     """Return what decides stability, the errors of its low modes, and the abscissa."""
-    result = stability(solution)
+    result = linear_stability(solution)
     modes = result.eigenvalues
 
     def followed(shifted: RadialSolution) -> Complex:
@@ -142,7 +144,7 @@ def _resolved_modes(solution: RadialSolution) -> tuple[Complex, Array]:
     return modes, found.change[kept] * np.abs(modes)
 
 
-def _transient(solution: RadialSolution, kept: Complex, result: Stability) -> Transient:
+def _transient(solution: RadialSolution, kept: Complex, result: LinearStability) -> Transient:
     fine, coarse = (modal_basis(solution, n, "physical", kept) for n in (_NODES, _COARSE_NODES))
     period = 2 * pi / result.line.spacing
 

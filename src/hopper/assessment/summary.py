@@ -1,0 +1,106 @@
+"""What is known about one hopper: radial solution, limits of wall friction, stability.
+
+Every number carries an absolute error.
+"""
+
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+from hopper.assessment.limits import Limits, assess_limits, tangency_coefficient
+from hopper.assessment.neutral import NeutralPoint, assess_neutral, largest_neutral_coefficient
+from hopper.assessment.quantity import Quantity
+from hopper.assessment.radial import RadialAssessment, assess_radial, describe_radial
+from hopper.assessment.stability import StabilityAssessment, Transient, Verdict, assess_stability
+from hopper.errors import (
+    ConvergenceError,
+    HopperError,
+    InvalidParameterError,
+    NonPositiveStressError,
+    NoRadialSolutionError,
+    TangencyError,
+)
+from hopper.problem import Hopper
+
+__all__ = [
+    "OUTCOMES",
+    "Assessment",
+    "Limits",
+    "NeutralPoint",
+    "Outcome",
+    "Quantity",
+    "RadialAssessment",
+    "StabilityAssessment",
+    "Transient",
+    "Verdict",
+    "assess",
+    "assess_limits",
+    "assess_neutral",
+    "assess_radial",
+    "assess_stability",
+    "describe_radial",
+    "largest_neutral_coefficient",
+    "tangency_coefficient",
+]
+
+Outcome = Literal[
+    Verdict,
+    "tangent_characteristic",
+    "no_radial_solution",
+    "non_positive_stress",
+    "not_converged",
+    "not_formulated",
+]
+OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
+
+
+@dataclass(frozen=True)
+class Assessment:
+    """All parts as far as they exist, and why where they do not.
+
+    Attributes
+    ----------
+    limits : Limits
+    radial : RadialAssessment or None
+    stability : StabilityAssessment or None
+    outcome : str
+        The verdict of stability, or what prevents it.
+    reason : str
+        What prevents it, in a sentence; empty where there is a verdict.
+    """
+
+    limits: Limits
+    radial: RadialAssessment | None
+    stability: StabilityAssessment | None
+    outcome: Outcome
+    reason: str
+
+
+def assess(hopper: Hopper, friction_angle: float) -> Assessment:
+    """Return what is known about a hopper with a wall of friction ``friction_angle`` (radians).
+
+    Raises
+    ------
+    InvalidParameterError
+        If the friction is out of range.
+    WallFrictionError
+        If the material cannot transmit the wall's friction.
+    """
+    try:
+        radial = assess_radial(hopper, friction_angle)
+    except (NoRadialSolutionError, NonPositiveStressError, ConvergenceError) as error:
+        return Assessment(assess_limits(hopper), None, None, _OUTCOMES[type(error)], str(error))
+    try:
+        found = assess_stability(radial.solution)
+    except (TangencyError, ConvergenceError, InvalidParameterError) as error:
+        return Assessment(radial.limits, radial, None, _OUTCOMES[type(error)], str(error))
+    return Assessment(radial.limits, radial, found, found.verdict, "")
+
+
+_OUTCOMES: dict[type[HopperError], Outcome] = {
+    NoRadialSolutionError: "no_radial_solution",
+    NonPositiveStressError: "non_positive_stress",
+    ConvergenceError: "not_converged",
+    TangencyError: "tangent_characteristic",
+    # The only one that stability knows is a material it has no equations for.
+    InvalidParameterError: "not_formulated",
+}

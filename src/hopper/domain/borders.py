@@ -1,0 +1,180 @@
+"""The domain of stability in the plane of internal and wall friction, and its borders.
+
+At a given wall friction a hopper is stable above a neutral delta. Towards rougher walls the domain
+ends where psi reaches pi/4 - delta/2 and a characteristic becomes tangent to the arcs r = const
+(tangency); beyond that t = log r is not like time, and no verdict is given.
+"""
+
+from dataclasses import dataclass
+from math import atan, cos, pi, sin
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.optimize import brentq
+
+from hopper.arrays import Array
+from hopper.domain.neutral import ROOT_TOLERANCE, NeutralCurve
+from hopper.errors import (
+    InvalidParameterError,
+    NoRadialSolutionError,
+)
+from hopper.problem import Geometry, Hopper
+from hopper.radial.collocation import Closure, Member
+from hopper.radial.family import family, neighbour
+from hopper.radial.friction_limit import friction_limit
+from hopper.radial.solution import solution_of
+from hopper.stability.linearisation import tangency_angle
+
+
+def friction_reaching(hopper: Hopper, psi: float) -> float | None:
+    """Return the wall friction angle (radians) at which the largest psi equals ``psi`` (radians).
+
+    None where the smooth wall already exceeds it, the physical branch ends below it, or the stress
+    is not positive there.
+
+    Raises
+    ------
+    ConvergenceError
+        If the radial solution there is not resolved.
+    """
+    below: Member | None = None
+    try:
+        for member in family(hopper):
+            # The nodes miss the largest psi by far less than this margin.
+            if member.psi.max() >= 0.9 * psi and _largest_psi(member) >= psi:
+                return _friction_between(below, member, psi) if below else None
+            below = member
+    except NoRadialSolutionError:
+        pass
+    return None
+
+
+def _largest_psi(member: Member) -> float:
+    return solution_of(member).psi_maximum()[1]
+
+
+def _friction_between(below: Member, above: Member, psi: float) -> float | None:
+    """Locate the level between two members; None beyond the fold or without positive stress."""
+    law, delta = below.hopper.material, below.hopper.delta
+    if below.psi_wall < psi <= above.psi_wall:
+        at_wall = neighbour(below, Closure("psi_wall", psi))
+        if _largest_psi(at_wall) <= psi + ROOT_TOLERANCE:
+            return law.friction_angle(delta, psi) if at_wall.tau > 0 else None
+    unknown = above.closure.unknown
+    low, high = (float(getattr(member, unknown)) for member in (below, above))
+
+    def excess(value: float) -> float:
+        return _largest_psi(neighbour(below, Closure(unknown, value))) - psi
+
+    # psi at the wall is at most the largest psi: no need to look beyond the level.
+    high = min(high, psi) if unknown == "psi_wall" else high
+    reached = neighbour(below, Closure(unknown, brentq(excess, low, high, xtol=1e-13, rtol=1e-13)))
+    if reached.tau <= 0 or (unknown == "tau" and reached.psi_wall_by_tau <= 0):
+        return None
+    return law.friction_angle(delta, reached.psi_wall)
+
+
+def tangency_friction(hopper: Hopper) -> float | None:
+    """Return the wall friction angle (radians) at which psi first reaches pi/4 - delta/2.
+
+    At the wall this is mu = sin(delta) cos(delta) / (1 + sin(delta)**2). None as
+    :func:`friction_reaching`.
+    """
+    return friction_reaching(hopper, tangency_angle(hopper.delta))
+
+
+def singular_velocity_friction(hopper: Hopper) -> float | None:
+    """Return the wall friction angle (radians) at which psi reaches pi/4, None as above."""
+    return friction_reaching(hopper, pi / 4)
+
+
+def tangency_curve(geometry: Geometry, half_angle: float, deltas: ArrayLike) -> Array:
+    """Return the tangency friction angle (radians) over ``deltas``, NaN where there is none."""
+    found = [
+        tangency_friction(Hopper(geometry, float(delta), half_angle))
+        for delta in np.asarray(deltas, dtype=float)
+    ]
+    return np.array([np.nan if phi is None else phi for phi in found])
+
+
+def stable_area(curve: NeutralCurve, deltas: ArrayLike, tangency: ArrayLike) -> float:
+    """Return the area (radians squared) between the neutral curve and the tangency.
+
+    ``deltas`` and ``tangency`` trace the tangency from the end of the neutral curve to the largest
+    delta considered, which closes the domain together with phi = 0. Where the tangency is NaN not
+    even the smooth wall belongs to the domain.
+
+    Raises
+    ------
+    InvalidParameterError
+        If the tangency is NaN everywhere.
+    """
+    known = np.isfinite(np.asarray(tangency, dtype=float))
+    if not known.any():
+        raise InvalidParameterError("tangency is NaN at every delta: there is no stable domain")
+    delta = np.asarray(deltas, dtype=float)[known]
+    phi = np.asarray(tangency, dtype=float)[known]
+    x = np.concatenate([curve.delta, delta, delta[-1:], curve.delta[:1]])
+    y = np.concatenate([curve.friction_angle, phi, [0.0], [0.0]])
+    return float(abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) / 2)
+
+
+@dataclass(frozen=True)
+class Borders:
+    """Wall friction angles (radians) at which something ends, over delta; NaN where it does not.
+
+    Attributes
+    ----------
+    delta : array, shape (n,)
+    limit : array
+        Largest friction with a radial solution.
+    limit_error : array
+        Its error estimate.
+    end : tuple of n
+        What ends the branch there, as in FrictionLimit; "none" where not even a smooth wall has a
+        solution.
+    tangency : array
+        psi reaches pi/4 - delta/2.
+    singular_velocity : array
+        psi reaches pi/4.
+    """
+
+    delta: Array
+    limit: Array
+    limit_error: Array
+    end: tuple[str, ...]
+    tangency: Array
+    singular_velocity: Array
+
+
+def borders(geometry: Geometry, half_angle: float, deltas: ArrayLike) -> Borders:
+    """Return the borders of what is known about a hopper's stability over ``deltas`` (radians).
+
+    Raises
+    ------
+    ConvergenceError
+        If a radial solution on a border is not resolved.
+    """
+    delta = np.asarray(deltas, dtype=float)
+    table = np.full((4, delta.size), np.nan)
+    ends = []
+    for i, value in enumerate(delta):
+        hopper = Hopper(geometry, float(value), half_angle)
+        try:
+            limit = friction_limit(hopper)
+        except NoRadialSolutionError:
+            ends.append("none")
+            continue
+        ends.append(limit.end)
+        levels = tangency_friction(hopper), singular_velocity_friction(hopper)
+        table[:, i] = (
+            limit.friction_angle,
+            limit.error_estimate,
+            *(np.nan if phi is None else phi for phi in levels),
+        )
+    return Borders(delta, table[0], table[1], tuple(ends), table[2], table[3])
+
+
+def wall_tangency_friction(delta: float) -> float:
+    """Return the friction angle (radians) of the wall on which psi_w = pi/4 - delta/2."""
+    return atan(sin(delta) * cos(delta) / (1 + sin(delta) ** 2))

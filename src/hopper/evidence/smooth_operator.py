@@ -1,0 +1,148 @@
+"""The smooth-wall equations (4.3) as an operator, and checks of what the paper deduces from them.
+
+(4.3) is the linearisation for sin(2 psi) ~ 2 psi and cos(2 psi) ~ 1 in (sigma, omega = sigma psi).
+The paper reduces it to one equation for omega, (4.4) and (4.5); here it is solved as it stands.
+"""
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+from scipy.optimize import brentq, linear_sum_assignment
+from scipy.special import hyp1f1
+
+from hopper.arrays import Array, Complex
+from hopper.problem import Geometry, Hopper
+from hopper.spectral import chebyshev
+from hopper.stability import smooth_wall
+
+
+def operator_matrix(hopper: Hopper, m: int) -> Array:
+    """Return the matrix of (4.3) on a half grid of ``m`` nodes, shape (2 m - 1, 2 m - 1).
+
+    Unknowns: sigma1, even, at all nodes and omega1, odd, at all but the wall; lambda U = M U.
+    """
+    s, k = hopper.s, hopper.curvature
+    theta = hopper.half_angle * chebyshev.half_nodes(m)
+    even, odd = (
+        chebyshev.half_differentiation_matrix(m, parity) / hopper.half_angle
+        for parity in ("even", "odd")
+    )
+    one = np.eye(m)
+    divergence = odd + k * one / np.tan(theta)[:, None]
+    sigma_row = np.hstack([(1 - (3 + 2 * k) * s) * one, -2 * s * divergence]) / (1 - s)
+    omega_row = np.hstack([-(1 + s) / (2 * s) * even, (3 + k) * one])
+    return np.vstack([sigma_row, omega_row])[:-1, :-1]
+
+
+@dataclass(frozen=True)
+class FormulaCheck:
+    """Eigenvalues of (4.3) by collocation against the pairs of (4.7), sine modes, or (4.9).
+
+    Attributes
+    ----------
+    error : float
+        Largest relative distance of a pair's eigenvalue to its one-to-one partner.
+    missing : complex array
+        Eigenvalues of (4.3), no larger than the pairs compared, that the formula does not give.
+    """
+
+    error: float
+    missing: Complex
+
+
+def check_formula(hopper: Hopper, count: int, m: int) -> FormulaCheck:
+    """Compare the ``count`` lowest pairs with the matrix of ``m`` half-grid nodes.
+
+    ``m`` must resolve them: m > 2 count suffices.
+    """
+    if hopper.geometry == "wedge":
+        formula, _ = smooth_wall.wedge_eigenvalues(hopper.delta, hopper.half_angle, count)
+    else:
+        wavenumbers = smooth_wall.cone_wavenumbers(hopper.half_angle, count)
+        formula = smooth_wall.cone_eigenvalues(hopper.delta, wavenumbers)
+    found = np.linalg.eigvals(operator_matrix(hopper, m)).astype(complex)
+    distance = np.abs(formula[:, None] - found) / np.abs(formula)[:, None]
+    rows, columns = linear_sum_assignment(np.minimum(distance, 1.0))
+    rest = np.delete(found, columns)
+    return FormulaCheck(
+        float(distance[rows, columns].max()), rest[np.abs(rest) <= np.abs(formula).max()]
+    )
+
+
+def neutral_delta(geometry: Geometry, half_angle: float) -> float:
+    """Return the delta (radians) at which the first pair of (4.7) or (4.9) crosses Re = 0.
+
+    A root of the eigenvalues themselves; `smooth_wall.neutral_delta` is the closed form.
+    """
+
+    def growth(delta: float) -> float:
+        return float(_first_pair(geometry, delta, half_angle).real.max())
+
+    return float(brentq(growth, 0.1, 1.2, xtol=1e-14))
+
+
+def crossing_delta(half_angle: float) -> float:
+    """Return the delta (radians) at which the first pairs of wedge and cone have the same Re."""
+
+    def gap(delta: float) -> float:
+        wedge, cone = (
+            _first_pair(geometry, delta, half_angle).real.max() for geometry in _GEOMETRIES
+        )
+        return float(wedge - cone)
+
+    return float(brentq(gap, 0.1, 1.2, xtol=1e-14))
+
+
+def _first_pair(geometry: Geometry, delta: float, half_angle: float) -> Complex:
+    if geometry == "wedge":
+        return smooth_wall.wedge_eigenvalues(delta, half_angle, 1)[0]
+    return smooth_wall.cone_eigenvalues(delta, smooth_wall.cone_wavenumbers(half_angle, 1))
+
+
+def real_onset(half_angle: float) -> float:
+    """Return the least delta (radians) at which (4.9) with the Bessel mu_1 has a real eigenvalue.
+
+    By bisection on the eigenvalues; sin of it is what the paper calls f(theta_w).
+    """
+    mu = smooth_wall.cone_wavenumbers(half_angle, 1, "bessel")
+    low, high = 0.1, pi / 2 - 1e-9
+    while high - low > 1e-14:
+        middle = (low + high) / 2
+        if np.all(smooth_wall.cone_eigenvalues(middle, mu).imag != 0):
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+def real_eigenvalues(deltas: Array, half_angle: float, count: int) -> int:
+    """Return how many of the ``count`` lowest pairs of (4.9) are real at any of ``deltas``."""
+    mu = smooth_wall.cone_wavenumbers(half_angle, count, "bessel")
+    return sum(
+        int(np.sum(smooth_wall.cone_eigenvalues(float(delta), mu).imag == 0)) for delta in deltas
+    )
+
+
+def kummer_residual(mu: float, half_angle: float, m: int) -> float:
+    """Return the residual of theta Phi(1 - 3 mu / 2, 2, theta**2 / 6) in (4.10).
+
+    Largest over a half grid of ``m`` nodes, relative to the largest of the equation's terms.
+    """
+    theta = half_angle * chebyshev.half_nodes(m)
+    even, odd = (
+        chebyshev.half_differentiation_matrix(m, parity) / half_angle for parity in ("even", "odd")
+    )
+    omega = theta * hyp1f1(1 - 1.5 * mu, 2, theta**2 / 6)
+    slope = odd @ omega
+    terms = np.array(
+        [
+            theta**2 * (even @ slope),
+            (theta - theta**3 / 3) * slope,
+            ((mu - 1 / 3) * theta**2 - 1) * omega,
+        ]
+    )
+    return float(np.abs(terms.sum(axis=0)).max() / np.abs(terms).max())
+
+
+_GEOMETRIES: tuple[Geometry, Geometry] = ("wedge", "cone")

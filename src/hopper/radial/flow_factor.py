@@ -1,0 +1,20 @@
+"""Jenike's flow factor: the consolidating stress over the stress that a stable arch carries."""
+
+from math import degrees, sin
+
+from hopper.radial.solution import RadialSolution
+
+
+def flow_factor(solution: RadialSolution) -> float:
+    """Return ff = H (1 + sin delta) sigma(theta_w) / (2 sin theta_w).
+
+    H is Jenike's geometry factor, 2 + theta_w / 60 deg (cone) or 1 + theta_w / 180 deg (wedge).
+
+    References
+    ----------
+    A. W. Jenike, Storage and flow of solids, Bulletin 123, Utah Eng. Exp. Station (1964).
+    """
+    hopper = solution.hopper
+    angle = degrees(hopper.half_angle)
+    h = 2 + angle / 60 if hopper.geometry == "cone" else 1 + angle / 180
+    return h * (1 + hopper.s) * solution.sigma_wall / (2 * sin(hopper.half_angle))

@@ -1,0 +1,298 @@
+"""Radial (similarity) stress fields T = r T(theta) for a given wall friction, paper section 3."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import degrees
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.optimize import brentq
+
+from hopper.arrays import Array
+from hopper.errors import (
+    ConvergenceError,
+    InvalidParameterError,
+    NonPositiveStressError,
+    NoRadialSolutionError,
+)
+from hopper.problem import Hopper, as_angles, is_real, require_angle
+from hopper.radial.collocation import Member
+from hopper.radial.equations import normal_weight, slopes
+from hopper.radial.friction_limit import friction_limit
+from hopper.radial.grid import Grid
+from hopper.radial.members import member_with_tau, members_with_wall_angle, physical_member
+
+Branch = Literal["physical", "second"]
+
+
+@dataclass(frozen=True, eq=False)
+class RadialSolution:
+    """A radial stress field with its error estimate.
+
+    Attributes
+    ----------
+    hopper : Hopper
+    friction_angle : float
+        Wall friction angle phi, radians.
+    branch : "physical" or "second"
+        Part of the family: before or beyond the fold.
+    member : Member
+        The discrete solution on its collocation grid.
+    """
+
+    hopper: Hopper
+    friction_angle: float
+    branch: Branch
+    member: Member
+
+    @property
+    def theta(self) -> Array:
+        """Collocation points in (0, theta_w], radians, shape (m,)."""
+        return self.member.grid.theta
+
+    @property
+    def sigma(self) -> Array:
+        """Average stress at ``theta``, in units of rho g r, shape (m,)."""
+        return np.exp(self.member.log_ratio) / self.member.tau
+
+    @property
+    def psi(self) -> Array:
+        """Sokolovskii angle at ``theta``, radians, shape (m,)."""
+        return self.member.psi
+
+    @property
+    def sigma_axis(self) -> float:
+        """sigma_0 = sigma(0), in units of rho g r."""
+        return 1 / self.member.tau
+
+    @property
+    def sigma_wall(self) -> float:
+        """sigma(theta_w), in units of rho g r."""
+        return float(self.sigma[-1])
+
+    @property
+    def psi_wall(self) -> float:
+        """psi(theta_w), radians."""
+        return self.member.psi_wall
+
+    @property
+    def error_estimate(self) -> float:
+        """Of log(sigma / sigma_0), psi and log sigma_0, from the convergence of the mesh."""
+        return self.member.error
+
+    def psi_at(self, theta: ArrayLike) -> Array:
+        """Return psi (radians) at ``theta`` (radians, |theta| <= theta_w), shape (n,)."""
+        return self.member.grid.interpolation(self._inside(theta), "odd") @ self.psi
+
+    def fields(self, theta: ArrayLike) -> tuple[Array, Array, Array, Array]:
+        """Return sigma, psi, d sigma/d theta and d psi/d theta at ``theta``, each of shape (n,).
+
+        Slopes come from the differential equations, so they carry no differentiation error.
+
+        Parameters
+        ----------
+        theta : array, shape (n,)
+            Radians, |theta| <= theta_w.
+
+        Raises
+        ------
+        InvalidParameterError
+            If an angle lies outside the hopper.
+        """
+        theta = self._inside(theta)
+        log_ratio = self.member.grid.interpolation(theta, "even") @ self.member.log_ratio
+        psi = self.member.grid.interpolation(theta, "odd") @ self.psi
+        return self._with_slopes(theta, log_ratio, psi)
+
+    def fields_on(self, grids: Sequence[Grid]) -> tuple[Array, Array, Array, Array]:
+        """Return :meth:`fields` at the points of half grids, one after the other, shape (n,)."""
+        on = [(grid.size, self.member.on(grid)) for grid in grids]
+        theta = np.concatenate([grid.theta for grid in grids])
+        log_ratio = np.concatenate([u[:m] for m, u in on])
+        psi = np.concatenate([u[m:-1] for m, u in on])
+        return self._with_slopes(theta, log_ratio, psi)
+
+    def _with_slopes(
+        self, theta: Array, log_ratio: Array, psi: Array
+    ) -> tuple[Array, Array, Array, Array]:
+        sigma = np.exp(log_ratio) / self.member.tau
+        dlog, dpsi = slopes(self.hopper, theta, sigma, psi)
+        return sigma, psi, sigma * dlog, dpsi
+
+    def psi_maximum(self) -> tuple[float, float]:
+        """Return (theta, psi), radians, at the largest psi on [0, theta_w]."""
+        theta = np.linspace(0, self.hopper.half_angle, 8 * self.theta.size + 1)
+        peak = int(np.argmax(self.psi_at(theta)))
+
+        def slope(angle: float) -> float:
+            return float(self.fields(angle)[3][0])
+
+        low, high = theta[max(peak - 1, 0)], theta[min(peak + 1, theta.size - 1)]
+        if slope(low) > 0 > slope(high):
+            angle = brentq(slope, low, high, xtol=1e-13)
+            return float(angle), float(self.psi_at(angle)[0])
+        return float(theta[peak]), float(self.psi_at(theta[peak])[0])
+
+    def _inside(self, theta: ArrayLike) -> Array:
+        theta = as_angles("theta", theta)
+        if not np.all(np.abs(theta) <= self.hopper.half_angle * (1 + 1e-12)):
+            raise InvalidParameterError(
+                f"theta lies outside the hopper: keep |theta| <= half_angle = "
+                f"{degrees(self.hopper.half_angle):.6g} deg"
+            )
+        return theta
+
+
+def solve_radial(
+    hopper: Hopper,
+    friction_angle: float,
+    branch: Branch = "physical",
+    start: RadialSolution | None = None,
+) -> RadialSolution:
+    """Return the radial stress field of a hopper whose wall has the given friction.
+
+    Parameters
+    ----------
+    hopper : Hopper
+        Geometry and material.
+    friction_angle : float
+        Wall friction angle phi = arctan(mu), radians, in [0, pi/2).
+    branch : "physical" or "second"
+        The branch connected to the smooth wall, or the one beyond the fold.
+    start : RadialSolution, optional
+        A neighbour in a sweep; saves Newton steps.
+
+    Raises
+    ------
+    InvalidParameterError
+        If the friction or the branch is not valid.
+    WallFrictionError
+        If the material cannot transmit the wall's friction.
+    NoRadialSolutionError
+        If the wall is rougher than the largest friction with a solution on the branch.
+    NonPositiveStressError
+        If the stress would not be positive.
+    ConvergenceError
+        If the fields cannot be resolved.
+    """
+    require_angle("friction_angle", friction_angle, zero_allowed=True)
+    if branch not in ("physical", "second"):
+        raise InvalidParameterError(f"branch = {branch!r} is unknown: use physical or second")
+    psi_wall = hopper.material.wall_angle(hopper.delta, friction_angle)
+    if branch == "second":
+        member = _on_second_branch(hopper, friction_angle, psi_wall)
+    else:
+        member = _on_physical_branch(hopper, friction_angle, start)
+    return RadialSolution(hopper, friction_angle, branch, member)
+
+
+def radial_solutions(hopper: Hopper, friction_angle: float) -> list[RadialSolution]:
+    """Return every radial stress field for the given wall friction (radians): one, or two.
+
+    The physical one first.
+
+    Raises
+    ------
+    HopperError
+        As :func:`solve_radial` for the physical branch.
+    """
+    physical = solve_radial(hopper, friction_angle)
+    try:
+        return [physical, solve_radial(hopper, friction_angle, "second")]
+    except NoRadialSolutionError:
+        return [physical]
+
+
+def solve_radial_family(hopper: Hopper, sigma_axis: float) -> RadialSolution:
+    """Return the member of the family with average stress ``sigma_axis`` on the axis.
+
+    Parameters
+    ----------
+    hopper : Hopper
+        Geometry and material.
+    sigma_axis : float
+        sigma_0 > 0, in units of rho g r. Its wall friction is part of the result.
+
+    Raises
+    ------
+    InvalidParameterError
+        If sigma_axis is not a positive number.
+    NoRadialSolutionError
+        If no member that slips downwards along its wall has this stress.
+    ConvergenceError
+        If the fields cannot be resolved.
+    """
+    if not (is_real(sigma_axis) and 0 < sigma_axis < np.inf):
+        raise InvalidParameterError(f"sigma_axis = {sigma_axis!r} must be a positive number")
+    return solution_of(member_with_tau(hopper, 1 / sigma_axis))
+
+
+def solution_of(member: Member) -> RadialSolution:
+    """Return the radial solution of a member of the family, with the friction of its wall."""
+    phi = member.hopper.material.friction_angle(member.hopper.delta, member.psi_wall)
+    branch: Branch = "physical" if member.psi_wall_by_tau > 0 else "second"
+    return RadialSolution(member.hopper, phi, branch, member)
+
+
+def _on_physical_branch(
+    hopper: Hopper, friction_angle: float, start: RadialSolution | None
+) -> Member:
+    member = physical_member(
+        hopper, friction_angle, start.member if start and start.hopper == hopper else None
+    )
+    if member is None:
+        _require_below_limit(hopper, friction_angle)
+        raise ConvergenceError(
+            f"radial solution not resolved at phi = {degrees(friction_angle):.6g} deg: psi is too "
+            "close to its singular value; lower the wall friction"
+        )
+    if member.tau <= 0:
+        raise NonPositiveStressError(_non_positive_stress(hopper, friction_angle))
+    return member
+
+
+def _on_second_branch(hopper: Hopper, friction_angle: float, psi_wall: float) -> Member:
+    _require_below_limit(hopper, friction_angle)
+    found = members_with_wall_angle(hopper, psi_wall)
+    if len(found) < 2:
+        raise NoRadialSolutionError(
+            f"phi = {degrees(friction_angle):.6g} deg has no second solution: it exists only "
+            "between the mass-flow limit and the fold of a cone; use branch = physical",
+            friction_limit(hopper).friction_angle,
+        )
+    return found[1]
+
+
+def _require_below_limit(hopper: Hopper, friction_angle: float) -> None:
+    limit = friction_limit(hopper)
+    if friction_angle <= limit.friction_angle:
+        return
+    reason = {
+        "fold": "the family of solutions folds there",
+        "wall": "the wall is as rough as the material there",
+        "interior": "psi reaches its singular angle inside the hopper there",
+        "axis": "the stress on the axis vanishes there",
+    }[limit.end]
+    raise NoRadialSolutionError(
+        f"no radial solution at phi = {degrees(friction_angle):.6g} deg "
+        f"(mu = {np.tan(friction_angle):.6g}): the largest friction that has one is "
+        f"phi = {degrees(limit.friction_angle):.6g} deg "
+        f"(mu = {np.tan(limit.friction_angle):.6g}), {reason}; lower the wall friction",
+        limit.friction_angle,
+    )
+
+
+def _non_positive_stress(hopper: Hopper, friction_angle: float) -> str:
+    law = hopper.material
+    weight = normal_weight(hopper) + hopper.curvature * law.hoop
+    try:
+        bound = member_with_tau(hopper, 0.0).psi_wall
+        least = f"phi > {degrees(law.friction_angle(hopper.delta, bound)):.6g} deg"
+    except NoRadialSolutionError:
+        least = "more friction than its material can transmit"
+    return (
+        f"average stress is not positive at phi = {degrees(friction_angle):.6g} deg: "
+        f"delta = {degrees(hopper.delta):.6g} deg is too small, a smooth wall needs delta > "
+        f"{degrees(np.arcsin(1 / weight)):.4f} deg and this delta needs {least}; raise delta"
+    )

@@ -1,0 +1,141 @@
+"""Smooth-wall theory: exact spectra for small psi and mu = 0, (4.3)-(4.10).
+
+For a wedge the modes are sines; for a cone omega = sigma psi satisfies
+omega'' + (omega cot(theta))' + mu omega = 0, omega(0) = omega(theta_w) = 0, whose eigenvalues mu_n
+the paper approximates for small angles twice. They follow from
+
+- Bessel, cot(theta) ~ 1 / theta, (4.8): J_1(sqrt(mu) theta_w) = 0;
+- Kummer, cot(theta) ~ 1 / theta - theta / 3, (4.10): Phi(1 - 3 mu / 2, 2, theta_w**2 / 6) = 0;
+- Legendre, exact: P^1_nu(cos(theta_w)) = 0 with mu = nu (nu + 1).
+"""
+
+from collections.abc import Callable
+from math import asin, cos, pi, sqrt
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
+from scipy.special import hyp1f1, jn_zeros, lpmv
+
+from hopper.arrays import Array, Complex
+from hopper.errors import InvalidParameterError
+from hopper.problem import Geometry, require_angle
+
+ConeVariant = Literal["bessel", "kummer", "legendre"]
+CONE_VARIANTS: tuple[ConeVariant, ...] = ("bessel", "kummer", "legendre")
+
+
+def abscissa(geometry: Geometry, delta: ArrayLike) -> Array:
+    """Return the abscissa of the line of eigenvalues for ``delta`` in radians, same shape."""
+    s = np.sin(np.asarray(delta, dtype=float))
+    return (2 - 3 * s) / (1 - s) if geometry == "wedge" else (5 - 9 * s) / (2 * (1 - s))
+
+
+def neutral_delta(geometry: Geometry) -> float:
+    """Return the delta (radians) at which the abscissa vanishes."""
+    return asin(2 / 3) if geometry == "wedge" else asin(5 / 9)
+
+
+def crossing_delta() -> float:
+    """Return the delta (radians) at which wedge and cone have the same abscissa, 3/2."""
+    return asin(1 / 3)
+
+
+def wedge_eigenvalues(delta: float, half_angle: float, count: int) -> tuple[Complex, Complex]:
+    """Return the eigenvalues (4.7) of the ``count`` lowest sine and cosine modes of a wedge.
+
+    Parameters
+    ----------
+    delta, half_angle : float
+        Radians.
+    count : int
+        Modes of each kind; each gives a pair of eigenvalues.
+
+    Returns
+    -------
+    physical, mirrored : complex arrays, shape (2 count,)
+        Of sine (odd omega) and cosine (even omega) modes.
+    """
+    s = _checked(delta, half_angle, count)
+    index = np.arange(1, count + 1)
+
+    def pair(wavenumber: NDArray[np.floating]) -> Complex:
+        root = np.emath.sqrt(1 - (1 - s**2) * wavenumber**2)
+        pairs = np.concatenate([2 - 3 * s + root, 2 - 3 * s - root]) / (1 - s)
+        return pairs.astype(np.complex128)
+
+    return pair(index * pi / half_angle), pair((index - 0.5) * pi / half_angle)
+
+
+def cone_wavenumbers(half_angle: float, count: int, variant: ConeVariant = "legendre") -> Array:
+    """Return mu_1 < ... < mu_count of a cone with the given half angle (radians), shape (count,).
+
+    Raises
+    ------
+    InvalidParameterError
+        If the angle is out of range, count is not positive, or the variant is unknown.
+    """
+    _checked(pi / 4, half_angle, count)
+    if variant not in CONE_VARIANTS:
+        raise InvalidParameterError(
+            f"variant = {variant!r} is unknown: use one of {', '.join(CONE_VARIANTS)}"
+        )
+    bessel: Array = jn_zeros(1, count) / half_angle
+    if variant == "bessel":
+        return bessel**2
+    characteristic: Callable[[float], float]
+    if variant == "kummer":
+
+        def characteristic(root: float) -> float:
+            return float(hyp1f1(1 - 1.5 * root**2, 2, half_angle**2 / 6))
+
+    else:
+
+        def characteristic(root: float) -> float:
+            return float(lpmv(1, sqrt(0.25 + root**2) - 0.5, cos(half_angle)))
+
+    # Neighbouring roots are about pi / theta_w apart, and the variants differ by far less.
+    margin = 0.3 * pi / half_angle
+    roots = [brentq(characteristic, x - margin, x + margin, xtol=1e-12) for x in bessel]
+    return np.array(roots) ** 2
+
+
+def cone_eigenvalues(delta: float, mu: ArrayLike) -> Complex:
+    """Return both roots of (4.9) for each mu_n, shape (2 len(mu),); ``delta`` in radians.
+
+    Raises
+    ------
+    InvalidParameterError
+        If delta is out of range.
+    """
+    require_angle("delta", delta)
+    s = np.sin(delta)
+    linear = 5 - 9 * s
+    constant = 4 - 20 * s + (1 + s) * np.asarray(mu, dtype=float)
+    root = np.emath.sqrt(linear**2 - 4 * (1 - s) * constant)
+    pairs = np.concatenate([linear + root, linear - root]) / (2 * (1 - s))
+    return pairs.astype(np.complex128)
+
+
+def oscillation_threshold(half_angle: ArrayLike) -> Array:
+    """Return f(theta_w): the least sin(delta) at which an eigenvalue of (4.9) is real.
+
+    ``half_angle`` in radians, below :func:`largest_distinct_half_angle`.
+    """
+    angle2 = np.asarray(half_angle, dtype=float) ** 2
+    x2 = jn_zeros(1, 1)[0] ** 2
+    return (-3 * angle2 + 4 * np.sqrt(x2**2 - 2 * x2 * angle2)) / (angle2 + 4 * x2)
+
+
+def largest_distinct_half_angle() -> float:
+    """Return the theta_w (radians) below which mu_1 > 2, so that f(theta_w) is defined."""
+    return float(jn_zeros(1, 1)[0]) / sqrt(2)
+
+
+def _checked(delta: float, half_angle: float, count: int) -> float:
+    require_angle("delta", delta)
+    require_angle("half_angle", half_angle)
+    if count < 1:
+        raise InvalidParameterError(f"count = {count!r} modes: ask for at least 1")
+    return float(np.sin(delta))

@@ -1,0 +1,507 @@
+"""The command `hopper`: answers, files, errors, and what it does not import."""
+
+import csv
+import json
+import os
+import re
+import shlex
+import subprocess
+import sys
+from math import atan, degrees, radians
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from hopper import __version__
+from hopper.assessment.radial import assess_radial
+from hopper.assessment.stability import assess_stability
+from hopper.errors import ConvergenceError
+from hopper.problem import Hopper
+from hopper_cli import commands, text
+from hopper_cli.main import EXAMPLES, main
+
+HOPPER = str(Path(sys.executable).with_name("hopper"))
+STEEL = "--geometry cone --model mohr-coulomb --delta 40 --half-angle 20 --mu 0.3"
+SINGULAR = "--geometry cone --delta 25 --half-angle 30 --mu 0.4"
+RADIAL_KEYS = {
+    "sigma_axis", "sigma_wall", "psi_wall", "psi_max", "u_wall", "flow_factor", "mu_fold",
+    "mass_flow_limit_deg", "error_estimate",
+}  # fmt: skip
+STABILITY_KEYS = {"eigenvalues", "line", "abscissa", "verdict", "error_estimate"}
+
+
+def steel():
+    return assess_radial(Hopper("cone", radians(40), radians(20)), atan(0.3))
+
+
+@pytest.fixture
+def run(capsys):
+    """Run the command in this process; return exit code, stdout and stderr."""
+
+    def run(command):
+        code = main(shlex.split(command))
+        out, err = capsys.readouterr()
+        return code, out, err
+
+    return run
+
+
+@pytest.fixture
+def answer(run):
+    """Return the parsed JSON of a command that has an answer."""
+
+    def answer(command):
+        code, out, err = run(f"{command} --json")
+        assert (code, err) == (0, "")
+
+        def refuse(name):
+            raise AssertionError(f"{name} in JSON")
+
+        return json.loads(out, parse_constant=refuse)
+
+    return answer
+
+
+@pytest.fixture
+def no_computation(monkeypatch):
+    def refuse(options):
+        raise AssertionError("the work has started")
+
+    monkeypatch.setattr(commands, "answer", refuse)
+
+
+# --- answers -------------------------------------------------------------------------------------
+
+
+def test_radial(answer):
+    found = answer(f"radial {STEEL}")
+    assert set(found) >= RADIAL_KEYS
+    expected = steel()
+    for key in ("sigma_axis", "sigma_wall", "psi_wall", "psi_max", "u_wall", "flow_factor"):
+        quantity = getattr(expected, key)
+        assert found[key] == quantity.value
+        assert found["errors"][key] == quantity.error
+    assert found["mu_fold"] == found["mu_limit"] == expected.limits.coefficient.value
+    assert found["limit_end"] == "fold"
+    assert found["mass_flow_limit_deg"] == pytest.approx(degrees(expected.limits.mass_flow.value))
+    assert found["solutions"] == 1
+    assert found["notes"] == []
+    inputs = ("geometry", "model", "delta_deg", "half_angle_deg", "mu")
+    assert [found[key] for key in inputs] == ["cone", "mohr-coulomb", 40, 20, 0.3]
+    assert found["phi_deg"] == pytest.approx(degrees(atan(0.3)), abs=1e-13)
+
+
+def test_the_error_estimate_of_radial_is_the_largest_relative_one(answer):
+    found = answer(f"radial {STEEL}")
+    errors = found["errors"]
+    keys = RADIAL_KEYS - {"error_estimate", "psi_wall", "psi_max", "mass_flow_limit_deg"}
+    relative = [errors[key] / found[key] for key in keys]
+    relative += [errors["psi_wall"], errors["psi_max"], radians(errors["theta_psi_max_deg"])]
+    assert found["error_estimate"] == pytest.approx(
+        max(*relative, radians(errors["mass_flow_limit_deg"]))
+    )
+
+
+def test_stability(answer):
+    found = answer(f"stability {STEEL}")
+    assert set(found) >= STABILITY_KEYS
+    solution = steel().solution
+    expected = assess_stability(solution)
+    eigenvalues = np.array(found["eigenvalues"]) @ [1, 1j]
+    np.testing.assert_array_equal(eigenvalues, expected.result.eigenvalues)
+    assert np.all(eigenvalues.imag >= 0)
+    assert np.all(np.diff(np.abs(eigenvalues)) > 0)
+    assert len(found["errors"]["eigenvalues"]) == eigenvalues.size
+    assert found["line"] == expected.result.line.abscissa
+    assert found["abscissa"] == expected.abscissa.value
+    assert found["error_estimate"] == expected.abscissa.error
+    assert found["governed_by"] == "mode"
+    assert found["verdict"] == "stable"
+    assert 1 < found["transient_growth"] < found["transient_amplification"] < found["kappa"]
+
+
+@pytest.mark.parametrize(("phi", "delta"), [(0, 33.6739), (10, 26.1404)])
+def test_neutral(answer, phi, delta):
+    found = answer(f"neutral --geometry cone --half-angle 10 --phi {phi}")
+    assert found["delta_neutral_deg"] == pytest.approx(delta, abs=5e-5)
+    assert found["error_estimate"] == found["errors"]["delta_neutral_deg"] < 1e-8
+    assert found["phi_deg"] == phi
+
+
+def test_friction_as_angle_or_coefficient(answer):
+    case = "radial --geometry wedge --delta 35 --half-angle 15"
+    angle = answer(f"{case} --phi 10")
+    coefficient = answer(f"{case} --mu {angle['mu']!r}")
+    assert angle["sigma_wall"] == coefficient["sigma_wall"]
+    assert coefficient["phi_deg"] == pytest.approx(10, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("command", "null"),
+    [
+        (f"radial {SINGULAR}", {"u_wall", "mu_fold"}),
+        ("radial --geometry wedge --delta 35 --half-angle 10 --phi 0",
+         {"mu_fold", "mass_flow_limit_deg"}),
+        ("radial --geometry cone --model von-mises --delta 30 --half-angle 30 --mu 0.2",
+         {"mu_fold", "mass_flow_limit_deg", "mu_tangency"}),
+        ("stability --geometry wedge --delta 35 --half-angle 10 --phi 0", {"transient_growth"}),
+    ],
+)  # fmt: skip
+def test_what_does_not_exist_is_null(answer, command, null):
+    found = answer(command)
+    assert {key for key, value in found.items() if value is None} == null
+    assert not null & set(found["errors"])
+    if "u_wall" in null:
+        assert "velocity is singular: psi reaches pi/4 at theta" in found["notes"][0]
+
+
+def test_text_for_people(run):
+    code, out, err = run(f"radial {STEEL}")
+    assert (code, err) == (0, "")
+    assert out.startswith("Radial solution: cone, mohr-coulomb, delta 40 deg, half angle 20 deg")
+    assert re.search(r"average stress at the wall +0\.2603136708 \+- \de-14 rho g r\n", out)
+    assert re.search(r"mass-flow limit of phi +25\.00866408 \+- \de-1\d deg\n", out)
+    assert out.splitlines()[-1] == (
+        "A radial solution exists up to mu = 0.468082, where a second branch of solutions begins; "
+        "the wall is within the mass-flow limit, phi = 25.0087 deg."
+    )
+    _, out, _ = run(f"stability {STEEL}")
+    assert re.search(r"eigenvalue 2 +-4\.36772238\d* \+ 17\.3433765\d*i \+- ", out)
+    assert out.splitlines()[-1] == (
+        "Stable: perturbations decay down the hopper, governed by a low mode."
+    )
+    _, out, _ = run("neutral --geometry cone --half-angle 10 --phi 10")
+    assert out.splitlines()[-1] == "Stable above delta = 26.1404 deg, unstable just below."
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "expected"),
+    [
+        (0.123456789012, 2e-14, "0.1234567890 +- 2e-14"),
+        (0.123456789012, 3e-5, "0.12346 +- 3e-05"),
+        (17.34, 0.04, "17.34 +- 4e-02"),
+        (17.34, 40.0, "2e+01 +- 4e+01"),
+        (-0.002, 1e-4, "-0.0020 +- 1e-04"),
+        (0.0, 1e-15, "0 +- 1e-15"),
+        (3, None, "3"),
+    ],
+)
+def test_digits_end_where_the_error_begins(value, error, expected):
+    assert text.with_error(value, error) == expected
+
+
+# --- help ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("command", EXAMPLES)
+def test_the_example_in_the_help_runs(run, command):
+    code, out, _ = run(f"{command} --help")
+    assert code == 0
+    (example,) = re.findall(rf"^  (hopper {command} .*)$", out, re.MULTILINE)
+    code, out, err = run(example.removeprefix("hopper "))
+    assert (code, err) == (0, "")
+    assert "+-" in out
+
+
+def test_version_and_help(run):
+    assert run("--version") == (0, f"hopper {__version__}\n", "")
+    code, out, _ = run("--help")
+    assert code == 0
+    assert all(command in out for command in EXAMPLES)
+
+
+# --- errors --------------------------------------------------------------------------------------
+
+CONE = "--geometry cone --delta 30 --half-angle 30"
+USAGE = [
+    ("", "the following arguments are required: COMMAND; see hopper --help"),
+    ("solve", "invalid choice: 'solve'"),
+    ("radial", "required: --geometry, --delta, --half-angle"),
+    (f"radial {CONE}", "one of the arguments --mu --phi is required"),
+    (f"radial {CONE} --mu 0.1 --phi 5", "argument --phi: not allowed with argument --mu"),
+    (f"radial {CONE} --mu 0.1 --typo", "unrecognized arguments: --typo"),
+    ("radial --geometry sphere --delta 30 --half-angle 30 --mu 0",
+     "argument --geometry: invalid choice: 'sphere' (choose from"),
+    ("radial --geometry cone --delta 95 --half-angle 30 --mu 0",
+     "argument --delta: 95 is out of range: give degrees between 0 and 90"),
+    ("radial --geometry cone --delta nan --half-angle 30 --mu 0",
+     "argument --delta: nan is out of range"),
+    ("radial --geometry cone --delta steep --half-angle 30 --mu 0",
+     "argument --delta: 'steep' is not a number: give degrees"),
+    ("radial --geometry cone --delta 30 --half-angle 0 --mu 0",
+     "argument --half-angle: 0 is out of range: give degrees between 0 and 90"),
+    (f"radial {CONE} --mu -0.1", "argument --mu: -0.1 is out of range: give a number from 0"),
+    (f"radial {CONE} --phi 90", "argument --phi: 90 is out of range: give degrees from 0 to"),
+    (f"radial {CONE} --phi 31", "argument --phi: wall friction angle phi = 31 deg has no wall"),
+    (f"stability {CONE} --mu 0.7", "argument --mu: wall friction angle phi = 34.992 deg has no"),
+    ("radial --geometry wedge --model von-mises --delta 30 --half-angle 30 --mu 0",
+     "argument --model: von-mises is formulated for cones only: use --geometry cone"),
+    (f"stability {CONE} --model von-mises --mu 0",
+     "argument --model: stability is formulated for mohr-coulomb only: use --model mohr-coulomb"),
+    ("neutral --geometry cone --half-angle 10 --delta 30 --mu 0", "unrecognized arguments"),
+]  # fmt: skip
+NO_ANSWER = [
+    (f"radial {CONE} --mu 0.36",
+     "no radial solution at phi = 19.7989 deg (mu = 0.36): the largest friction that has one is "
+     "phi = 19.7406 deg (mu = 0.358852)"),
+    (f"stability {CONE} --mu 0.36", "the largest friction that has one is phi = 19.7406 deg"),
+    (f"stability {CONE} --mu 0.33",
+     "psi reaches pi/4 - delta/2 = 30 deg at theta = 10.2132 deg, where a characteristic is "
+     "tangent to the arc r = const; lower the wall friction; the largest friction with a verdict "
+     "is mu = 0.302056 (phi = 16.8072 deg)"),
+    ("stability --geometry cone --delta 65 --half-angle 45 --mu 0", "not even a smooth wall has"),
+    ("radial --geometry cone --delta 8 --half-angle 10 --mu 0", "raise delta"),
+    ("neutral --geometry cone --half-angle 10 --phi 19",
+     "the largest friction with a neutral delta is mu = 0.32504"),
+]  # fmt: skip
+
+
+def is_one_error(err, message):
+    return err.startswith("hopper: error: ") and err.count("\n") == 1 and message in err
+
+
+@pytest.mark.parametrize(("command", "message"), USAGE)
+def test_a_wrong_option_is_named(run, command, message):
+    code, out, err = run(command)
+    assert (code, out) == (2, "")
+    assert is_one_error(err, message), err
+
+
+@pytest.mark.parametrize(("command", "message"), NO_ANSWER)
+def test_where_there_is_no_answer_the_limit_is_named(run, command, message):
+    code, out, err = run(f"{command} --json")
+    assert (code, out) == (1, "")
+    assert is_one_error(err, message), err
+
+
+def test_fields_that_do_not_converge(run, monkeypatch):
+    def fail(*arguments):
+        raise ConvergenceError("radial solution not resolved")
+
+    monkeypatch.setattr("hopper_cli.commands.assess_radial", fail)
+    code, out, err = run(f"radial {STEEL}")
+    assert (code, out) == (1, "")
+    assert is_one_error(err, "not resolved; the largest friction with a radial solution is mu = ")
+    code, out, err = run("radial --geometry cone --delta 1 --half-angle 89 --mu 0.001")
+    assert code == 1
+    assert err == "hopper: error: radial solution not resolved\n"
+
+
+def test_interrupted(run, monkeypatch):
+    def interrupt(options):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(commands, "answer", interrupt)
+    assert run(f"radial {STEEL}") == (130, "", "")
+
+
+# --- files ---------------------------------------------------------------------------------------
+
+
+def test_fields_as_csv(run, tmp_path):
+    path = tmp_path / "fields.csv"
+    code, _, err = run(f"radial {STEEL} --profile {path}")
+    assert (code, err) == (0, "")
+    with path.open(newline="") as file:
+        header, *rows = csv.reader(file)
+    assert header == ["theta [degree]", "sigma [rho g r]", "psi [radian]", "u [u(0)]"]
+    theta, *columns = np.array(rows, float).T
+    found = steel()
+    for column, expected in zip(columns, found.profiles(np.radians(theta)), strict=True):
+        np.testing.assert_allclose(column, expected, rtol=1e-13, atol=1e-15)
+    assert theta[0] == -20
+    assert 0 in theta
+
+
+def test_an_unknown_velocity_is_left_out(run, tmp_path):
+    path = tmp_path / "fields.csv"
+    assert run(f"radial {SINGULAR} --profile {path}")[0] == 0
+    assert path.read_text().splitlines()[0] == "theta [degree],sigma [rho g r],psi [radian]"
+
+
+def test_eigenvalues_as_csv(run, answer, tmp_path):
+    path = tmp_path / "modes.csv"
+    low = answer(f"stability {STEEL} --profile {path}")["eigenvalues"]
+    with path.open(newline="") as file:
+        header, *rows = csv.reader(file)
+    assert header == ["eigenvalue_real [1]", "eigenvalue_imag [1]", "eigenvalue_error [1]"]
+    table = np.array(rows, float)
+    np.testing.assert_array_equal(table[: len(low), :2], low)
+    assert len(table) > len(low)
+    assert np.all(table[:, 2] > 0)
+
+
+@pytest.mark.parametrize("command", ["radial", "stability"])
+def test_netcdf_follows_the_conventions(run, answer, tmp_path, command):
+    path = tmp_path / "out.nc"
+    found = answer(f"{command} {STEEL} --profile {path}")
+    with xr.open_dataset(path) as data:
+        for key, value in data.items():
+            assert value.long_name
+            assert "units" in value.attrs or "flag_values" in value.attrs
+            if "units" in value.attrs and key in found:
+                assert float(value) == pytest.approx(found[key], rel=1e-15)
+        assert json.loads(data.parameters)["mu"] == 0.3
+        assert f"{'sigma_wall' if command == 'radial' else 'abscissa'}_error" in data
+    checker = Path(sys.executable).with_name("compliance-checker")
+    report = tmp_path / "report.json"
+    options = ["--test=cf:1.11", "--format=json", f"--output={report}"]
+    done = subprocess.run([checker, *options, path], capture_output=True, text=True, check=False)
+    assert report.exists(), done.stderr
+    result = json.loads(report.read_text())["cf:1.11"]
+    for priority in ("high_priorities", "medium_priorities"):
+        assert [item["msgs"] for item in result[priority] if item["msgs"]] == []
+
+
+MAGIC = {"png": b"\x89PNG", "pdf": b"%PDF", "svg": b"<?xml"}
+
+
+@pytest.mark.parametrize(
+    ("command", "suffix"),
+    [("radial", "png"), ("radial", "pdf"), ("radial", "svg"), ("stability", "svg")],
+)
+def test_plots_do_not_vary(run, tmp_path, command, suffix):
+    first, second = (tmp_path / f"{name}.{suffix}" for name in ("first", "second"))
+    for path in (first, second):
+        code, out, err = run(f"{command} {STEEL} --plot {path}")
+        assert (code, err) == (0, "")
+        assert out
+    assert first.read_bytes().startswith(MAGIC[suffix])
+    assert first.read_bytes() == second.read_bytes()
+
+
+def test_a_plot_of_an_unknown_velocity(run, tmp_path):
+    path = tmp_path / "fields.svg"
+    assert run(f"radial {SINGULAR} --plot {path}")[0] == 0
+
+
+@pytest.mark.usefixtures("no_computation")
+@pytest.mark.parametrize(
+    ("option", "name", "message"),
+    [
+        ("--profile", "out.txt", "has no known suffix: use .csv or .nc"),
+        ("--profile", "out", "has no known suffix"),
+        ("--plot", "out.csv", "has no known suffix: use .png or .pdf or .svg"),
+        ("--profile", "missing/out.nc", "does not exist: create it first"),
+        ("--plot", "old.png", "exists: give another name, or --force to overwrite it"),
+        ("--profile", "folder.nc", "is a folder: give the name of a file"),
+        ("--profile", f"{'long' * 70}.nc", "cannot be written: File name too long"),
+    ],
+)
+@pytest.mark.parametrize("command", ["radial", "stability"])
+def test_a_file_that_cannot_be_written_is_told_before_the_work(
+    run, tmp_path, command, option, name, message
+):
+    (tmp_path / "old.png").write_text("old")
+    (tmp_path / "folder.nc").mkdir()
+    before = sorted(tmp_path.iterdir())
+    code, out, err = run(f"{command} {STEEL} {option} {tmp_path / name}")
+    assert (code, out) == (2, "")
+    assert is_one_error(err, message), err
+    assert f"argument {option}: " in err
+    assert sorted(tmp_path.iterdir()) == before
+    assert (tmp_path / "old.png").read_text() == "old"
+
+
+@pytest.mark.usefixtures("no_computation")
+@pytest.mark.skipif(not Path("/proc").is_dir(), reason="needs a folder that nobody can write to")
+def test_a_folder_that_cannot_be_written_to(run):
+    code, _, err = run(f"radial {STEEL} --profile /proc/out.csv")
+    assert code == 2
+    assert is_one_error(err, "argument --profile: /proc/out.csv cannot be written: ")
+
+
+@pytest.mark.usefixtures("no_computation")
+def test_a_missing_library_is_named_before_the_work(run, tmp_path, monkeypatch):
+    monkeypatch.setattr("hopper_cli.main.find_spec", lambda name: None)
+    code, _, err = run(f"radial {STEEL} --plot {tmp_path / 'out.png'}")
+    assert code == 2
+    assert is_one_error(err, "argument --plot: .png needs matplotlib: install hopper[workflow]")
+
+
+@pytest.mark.parametrize("option", ["--profile old.csv", "--profile old.nc", "--plot old.png"])
+def test_force_overwrites(run, tmp_path, monkeypatch, option):
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / option.split()[1]
+    path.write_text("old")
+    assert run(f"radial {STEEL} {option}")[0] == 2
+    assert run(f"radial {STEEL} {option} --force")[0] == 0
+    assert path.read_bytes() != b"old"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("suffix", ["csv", "nc"])
+def test_a_write_that_fails_leaves_the_old_file(run, tmp_path, monkeypatch, suffix):
+    path = tmp_path / f"old.{suffix}"
+    path.write_text("old")
+
+    def fail(descriptor):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", fail)
+    code, out, err = run(f"radial {STEEL} --profile {path} --force")
+    assert (code, out) == (2, "")
+    assert is_one_error(err, "old." + suffix + " cannot be written: ")
+    assert path.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_no_answer_leaves_no_file(run, tmp_path):
+    code, _, _ = run(f"stability {CONE} --mu 0.33 --profile {tmp_path / 'out.csv'}")
+    assert code == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+# --- the installed command -----------------------------------------------------------------------
+
+
+def loaded_by(command):
+    """Top-level packages that a command imports."""
+    code = f"""
+import sys
+from hopper_cli.main import main
+assert main({shlex.split(command)!r}) == 0
+print(*{{name.split('.')[0] for name in sys.modules}}, file=sys.stderr)
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return set(done.stderr.split())
+
+
+@pytest.mark.parametrize("command", [f"radial {STEEL}", f"stability {STEEL} --json"])
+def test_a_plain_answer_imports_no_more_than_it_needs(command):
+    loaded = loaded_by(command)
+    assert "scipy" in loaded
+    assert not loaded & {"matplotlib", "xarray", "netCDF4", "pandas", "snakemake", "support"}
+
+
+def test_help_imports_no_numerics():
+    assert not loaded_by("radial --help") & {"numpy", "scipy"}
+
+
+def test_the_installed_command():
+    command = [HOPPER, *shlex.split(f"radial {STEEL} --json")]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert json.loads(done.stdout)["limit_end"] == "fold"
+    assert done.stderr == ""
+    bad = subprocess.run([HOPPER, "radial"], capture_output=True, text=True, check=False)
+    assert (bad.returncode, bad.stdout) == (2, "")
+
+
+def test_a_reader_that_goes_away_is_no_error():
+    command = [HOPPER, *shlex.split(f"radial {STEEL}")]
+    reading, writing = os.pipe()
+    os.close(reading)
+    done = subprocess.run(command, stdout=writing, stderr=subprocess.PIPE, text=True, check=False)
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (141, "")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device without space")
+def test_an_answer_that_cannot_be_printed_is_an_error():
+    command = [HOPPER, *shlex.split(f"radial {STEEL}")]
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    assert done.returncode == 1
+    assert is_one_error(done.stderr, "standard output: No space left on device")
