@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, FancyArrowPatch
 
-from support import jobs, plotting
+from hopper_workflow import jobs, plotting
 
 _DEPTH = (0.85, 0.42)  # offset of the wedge's rear edge, in units of the slant height
 _FLATTENING = 0.22  # of the cone's circles as seen from the side
@@ -105,4 +105,4 @@ def _arrow(axis: Axes, start: np.ndarray, end: np.ndarray, color: str) -> None:
 
 
 if __name__ == "__main__":
-    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw))

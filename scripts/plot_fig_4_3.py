@@ -2,7 +2,7 @@
 
 from matplotlib.figure import Figure
 
-from support import artifacts, jobs, plotting
+from hopper_workflow import artifacts, jobs, plotting
 
 
 def draw(wedge: str, cone: str) -> Figure:
@@ -27,4 +27,4 @@ def draw(wedge: str, cone: str) -> Figure:
 
 
 if __name__ == "__main__":
-    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw))

@@ -2,7 +2,7 @@
 
 from matplotlib.figure import Figure
 
-from support import artifacts, jobs, plotting
+from hopper_workflow import artifacts, jobs, plotting
 
 
 def draw(wedge: str, cone: str) -> Figure:
@@ -10,7 +10,7 @@ def draw(wedge: str, cone: str) -> Figure:
     panels = [artifacts.read(path) for path in (wedge, cone)]
     figure, axes = plotting.subplots(2, 2, height=4.6, sharex=True)
     for column, (data, title) in enumerate(zip(panels, ("wedge", "cone"), strict=True)):
-        for row, mode in enumerate(data["kept_in"].attrs["flag_meanings"].split()):
+        for row, mode in enumerate(data["kept_in"].values):
             axis = axes[row, column]
             case = data.isel(kept_in=row)
             relative = case.growth / case.lower_bound
@@ -33,4 +33,4 @@ def draw(wedge: str, cone: str) -> Figure:
 _NORMS = (("discrete", plotting.BLUE), ("$L_2$", plotting.ORANGE))
 
 if __name__ == "__main__":
-    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw))

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from matplotlib.figure import Figure
 
-from support import artifacts, domains, jobs, plotting
+from hopper_workflow import artifacts, domains, jobs, plotting
 
 
 def draw(
@@ -25,4 +25,4 @@ def draw(
 
 
 if __name__ == "__main__":
-    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw))

@@ -8,8 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap, SymLogNorm
 from matplotlib.figure import Figure
 
-from support import artifacts, domains, jobs, plotting
-from support import maps as maps_of
+from hopper_workflow import artifacts, domains, jobs, plotting
 
 # A panel has fewer pixels; every cell more costs memory and time.
 _MOST = 1000
@@ -28,7 +27,7 @@ def draw(
     figure, axes = plotting.subplots(2, 2, height=5.9, sharex=True, sharey=True)
     for axis, path, border, title in zip(axes.flat, maps, borders, panels, strict=True):
         whole = artifacts.read(path)
-        data = maps_of.thinned(whole, _MOST)
+        data = domains.thinned(whole, _MOST)
         _mark_undecided(axis, data)
         mesh = axis.pcolormesh(data.delta, data.phi, data.abscissa.T, cmap="RdBu_r", norm=norm,
                                shading="nearest", rasterized=True)  # fmt: skip
@@ -48,9 +47,8 @@ def draw(
 
 def _mark_undecided(axis: Axes, data: xr.Dataset) -> None:
     """Grey, by reason, wherever there is no verdict."""
-    meanings = data.region.attrs["flag_meanings"].split()
     for name, (color, label) in _GREYS.items():
-        mask = np.where(data.region == meanings.index(name), 1.0, np.nan).T
+        mask = np.where(data.region == name, 1.0, np.nan).T
         axis.pcolormesh(data.delta, data.phi, mask, cmap=ListedColormap([color]),
                         shading="nearest", rasterized=True)  # fmt: skip
         axis.fill([], [], color=color, label=label)
@@ -64,4 +62,4 @@ _GREYS = {
 }
 
 if __name__ == "__main__":
-    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw))

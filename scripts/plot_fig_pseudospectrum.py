@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.figure import Figure
 
-from support import artifacts, fields, jobs, plotting
+from hopper_workflow import artifacts, jobs, plotting
 
 
 def draw(
@@ -31,7 +31,7 @@ def draw(
                           norm=norm, extend="both", alpha=0.45)  # fmt: skip
             axis.contour(data["real"], data["imag"], height, levels=levels, cmap=_CMAP,
                          norm=norm, linewidths=0.8)  # fmt: skip
-            values = fields.as_complex(data, "eigenvalue")
+            values = data.eigenvalue.to_numpy()
             axis.plot(values.real, values.imag, "k.", markersize=2.5)
             axis.axvline(0, color="0.5", linewidth=0.6)
             axis.set_xlim(data["real"][0], data["real"][-1])
@@ -49,4 +49,4 @@ _CMAP = "viridis"
 _NORMS = {"discrete": "discrete", "L2": "$L_2$"}
 
 if __name__ == "__main__":
-    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw))

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import jinja2
 
-from claims.finding import FAILS, HOLDS, LIMITED, UNDECIDED, VERDICTS
-from claims.words import read_not_judged
-from support import artifacts, jobs
+from hopper_workflow import artifacts, jobs
+from hopper_workflow.claims.finding import FAILS, HOLDS, LIMITED, UNDECIDED, VERDICTS
+from hopper_workflow.claims.words import read_not_judged
 
 # Colours of a contrast of at least 7 : 1; the mark and the words say the same without them.
 STYLES = {
@@ -89,4 +89,4 @@ def cell(text: str) -> str:
 
 
 if __name__ == "__main__":
-    jobs.run(render_claims, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(render_claims)

@@ -18,12 +18,13 @@ from hopper.domain.neutral import NoNeutralPointError
 from hopper.errors import ConvergenceError, HopperError, TangencyError, WallFrictionError
 from hopper.problem import as_geometry
 from hopper.radial.solution import solve_radial
-from hopper_cli import answers, text
-from hopper_cli.answers import Part
+from hopper_cli import sentences, text
 from hopper_cli.errors import UsageError
-from hopper_cli.files import write_csv
-from hopper_cli.inputs import Case, Wall
-from hopper_cli.rows import Row
+from hopper_cli.outputs import write_csv
+from hopper_data import assessments, tables
+from hopper_data.assessments import Part
+from hopper_data.inputs import Case, Wall
+from hopper_data.tables import Row
 
 
 def answer(options: Namespace) -> str:
@@ -48,23 +49,25 @@ def _radial(options: Namespace) -> str:
         limit = assess_limits(case.hopper).coefficient
         raise _explained(error, "a radial solution", limit) from None
     _write(options, case, found)
-    rows = answers.radial_rows(found)
-    limits = answers.limit_rows(found.limits)
+    rows = tables.rows(found, assessments.RADIAL)
+    limits = tables.rows(found.limits, assessments.LIMITS)
     end = found.limits.friction and found.limits.friction.end
     if options.json:
-        main = [row for row in rows + limits if row.key not in ("mu_limit", "mu_tangency")]
+        main = [
+            row for row in rows + limits if row.variable.name not in ("mu_limit", "mu_tangency")
+        ]
         return _json(
             case.echoed(),
             rows + limits,
             limit_end=end,
-            error_estimate=answers.largest_relative_error(main),
+            error_estimate=max(row.relative_error for row in main),
             notes=found.notes,
         )
-    shown = [row for row in limits if row.key != "mu_limit" or end != "fold"]
+    shown = [row for row in limits if row.variable.name != "mu_limit" or end != "fold"]
     return _text(
         f"Radial solution: {case}",
         text.number_cells(rows + shown),
-        [*found.notes, answers.radial_sentence(found)],
+        [*found.notes, sentences.radial_sentence(found)],
     )
 
 
@@ -80,8 +83,8 @@ def _stability(options: Namespace) -> str:
             raise HopperError(f"{error}; not even a smooth wall has a verdict") from None
         raise _explained(error, "a verdict", limit) from None
     _write(options, case, found)
-    rows = answers.stability_rows(found)
-    rows.append(answers.tangency_row(tangency_coefficient(hopper)))
+    rows = tables.rows(found, assessments.STABILITY)
+    rows += tables.rows({"tangency": tangency_coefficient(hopper)}, assessments.TANGENCY)
     modes = found.result.eigenvalues
     if options.json:
         return _json(
@@ -100,7 +103,7 @@ def _stability(options: Namespace) -> str:
     return _text(
         f"Linear stability: {case}",
         cells + text.number_cells(rows),
-        [answers.stability_sentence(found)],
+        [sentences.stability_sentence(found)],
     )
 
 
@@ -112,14 +115,14 @@ def _neutral(options: Namespace) -> str:
     except NoNeutralPointError as error:
         limit = largest_neutral_coefficient(geometry, half_angle)
         raise _explained(error, "a neutral delta", limit) from None
-    rows = answers.neutral_rows(found)
+    rows = tables.rows(found, assessments.NEUTRAL)
     inputs = {"geometry": geometry, "half_angle_deg": options.half_angle, **asdict(wall)}
     if options.json:
         return _json(inputs, rows, governed_by=found.governed_by, error_estimate=rows[0].error)
     return _text(
         f"Neutral stability: {geometry}, half angle {options.half_angle:g} deg, {wall}",
         text.number_cells(rows),
-        [answers.neutral_sentence(found)],
+        [sentences.neutral_sentence(found)],
     )
 
 
@@ -151,9 +154,9 @@ def _text(title: str, cells: Sequence[tuple[str, str]], sentences: Sequence[str]
 
 
 def _json(inputs: dict[str, Any], rows: Sequence[Row], **more: Any) -> str:
-    errors = {row.key: row.error for row in rows if row.error is not None}
+    errors = {row.variable.name: row.error for row in rows if row.error is not None}
     errors |= more.pop("errors", {})
-    numbers = {row.key: row.value for row in rows}
+    numbers = {row.variable.name: row.value for row in rows}
     document = {**inputs, **numbers, **more, "errors": errors}
     return json.dumps(_finite(document), indent=2, allow_nan=False)
 
@@ -186,10 +189,12 @@ def _guarded(option: str, path: Path, write: Callable[[Path], None]) -> None:
 
 def _write_profile(path: Path, case: Case, found: Part) -> None:
     if path.suffix.lower() == ".nc":
-        from hopper_cli import datasets
+        from hopper_data import results
 
-        datasets.write(path, case, found)
+        results.write_part(path, case, found)
         return
-    columns = answers.columns(found)
-    header = [f"{column.key} [{column.scale or column.units}]" for column in columns]
-    write_csv(path, header, zip(*(column.values.tolist() for column in columns), strict=True))
+    result, table = assessments.arrays(found)
+    columns = [part for variable in table for part in tables.parts(variable, variable.of(result))]
+    known = [(variable, values) for variable, values in columns if values is not None]
+    header = [f"{variable.name} [{variable.scale or variable.units}]" for variable, _ in known]
+    write_csv(path, header, zip(*(values.tolist() for _, values in known), strict=True))

@@ -12,10 +12,10 @@ from math import isfinite
 from pathlib import Path
 from typing import NoReturn
 
-from hopper import __version__
+import hopper
 from hopper.errors import HopperError, InvalidParameterError
 from hopper_cli.errors import UsageError
-from hopper_cli.files import FileError, checked
+from hopper_cli.outputs import FileError, checked
 
 _NO_ANSWER, _USAGE, _INTERRUPTED, _BROKEN_PIPE = 1, 2, 130, 141
 
@@ -78,7 +78,7 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
-    parser.add_argument("--version", action="version", version=f"hopper {__version__}")
+    parser.add_argument("--version", action="version", version=f"hopper {hopper.__version__}")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     radial = _command(
         commands, "radial", "the radial solution: stresses, psi, velocity, flow factor, limits"

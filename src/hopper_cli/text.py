@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from math import floor, log10
 
-from hopper_cli.rows import Row
+from hopper_data.tables import Row, Variable
 
 _DIGITS = 10
 _UNITS = {"degree": "deg", "radian": "rad", "1": ""}
@@ -39,10 +39,14 @@ def complex_with_error(value: complex, error: float) -> str:
 def number_cells(rows: Sequence[Row]) -> list[tuple[str, str]]:
     """Return label, and value with error and unit, of every number that exists."""
     return [
-        (row.label, f"{with_error(row.value, row.error)} {row.scale or _UNITS[row.units]}".rstrip())
+        (row.variable.label, f"{with_error(row.value, row.error)} {_unit(row.variable)}".rstrip())
         for row in rows
         if row.value is not None
     ]
+
+
+def _unit(variable: Variable) -> str:
+    return variable.scale or _UNITS[variable.units]
 
 
 def table(cells: Sequence[tuple[str, str]]) -> str:

@@ -473,7 +473,14 @@ print(*{{name.split('.')[0] for name in sys.modules}}, file=sys.stderr)
 def test_a_plain_answer_imports_no_more_than_it_needs(command):
     loaded = loaded_by(command)
     assert "scipy" in loaded
-    assert not loaded & {"matplotlib", "xarray", "netCDF4", "pandas", "snakemake", "support"}
+    assert not loaded & {
+        "matplotlib",
+        "xarray",
+        "netCDF4",
+        "pandas",
+        "snakemake",
+        "hopper_workflow",
+    }
 
 
 def test_help_imports_no_numerics():

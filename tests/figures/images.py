@@ -7,7 +7,7 @@ import matplotlib
 import pytest
 from matplotlib import ft2font
 
-from support import plotting
+from hopper_workflow import plotting
 
 BASELINE = Path(__file__).with_name("baseline")
 STYLE = str(plotting.STYLE)

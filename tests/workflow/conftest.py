@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 import yaml
 
-from support.logs import checksum
+from hopper_workflow.logs import checksum
 
 ROOT = Path(__file__).parents[2]
 CHECK = {"points": 1, "nodes": 80, "coarse_nodes": 40, "tolerance": 0.001}

@@ -9,7 +9,7 @@ import netCDF4
 import numpy as np
 import pytest
 
-from support import artifacts
+from hopper_workflow import artifacts
 from tests.reliability import comparison, record
 
 pytestmark = pytest.mark.workflow
@@ -107,9 +107,11 @@ def test_the_number_of_chunks_does_not_change_the_map(built, rebuilt):
 def test_a_map_tells_why_there_is_no_verdict(built):
     for path in files(built, "results/map", "*_[0-9]*.nc"):
         data = artifacts.read(path)
-        verdict = np.isin(data.region, [0, 1])
+        verdict = np.isin(data.region, ["stable", "unstable"])
         assert np.array_equal(np.isfinite(data.abscissa), verdict)
-        assert np.all((data.abscissa.values[verdict] < 0) == (data.region.values[verdict] == 0))
+        assert np.all(
+            (data.abscissa.values[verdict] < 0) == (data.region.values[verdict] == "stable")
+        )
 
 
 def test_error_estimates_are_in_the_artifacts(built):

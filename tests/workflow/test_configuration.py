@@ -3,7 +3,7 @@
 import pytest
 import yaml
 
-from support import configuration
+from hopper_workflow import configuration
 from tests.workflow.conftest import ROOT
 
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"

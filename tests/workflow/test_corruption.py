@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from publish import run
-from support import artifacts, logs
+from hopper_workflow import artifacts, logs
+from hopper_workflow.publish import run
 from tests.reliability import record
 
 pytestmark = pytest.mark.workflow

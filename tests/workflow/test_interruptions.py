@@ -10,7 +10,7 @@ from collections import Counter
 
 import pytest
 
-from hopper_cli.files import replacing
+from hopper_data.files import replacing
 from tests.reliability import comparison, record
 from tests.workflow import interruptions
 from tests.workflow.interruptions import (

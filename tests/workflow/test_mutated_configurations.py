@@ -22,7 +22,7 @@ from snakemake.api import SnakemakeApi
 from snakemake.common.configfile import load_configfile
 from snakemake.settings.types import DAGSettings, OutputSettings, Quietness, ResourceSettings
 
-from support import configuration, fields, strict_yaml
+from hopper_workflow import configuration, ranges, strict_yaml
 from tests.reliability import record
 from tests.workflow import mutations
 from tests.workflow.conftest import ROOT, Workflow
@@ -358,5 +358,5 @@ def test_what_a_script_could_not_do_is_refused(key, value, message):
 
 
 def test_steps_do_not_pass_their_end():
-    np.testing.assert_array_equal(fields.steps(0, 89, 30), [0, 30, 60])
-    assert fields.steps(0, 0.3, 0.1).size == 4
+    np.testing.assert_array_equal(ranges.steps(0, 89, 30), [0, 30, 60])
+    assert ranges.steps(0, 0.3, 0.1).size == 4

@@ -9,8 +9,8 @@ import xarray as xr
 import yaml
 from benchmarks import requests as measured
 
-from support import maps
-from support.requests import Cost, of_job, read_costs
+from hopper_workflow import domains
+from hopper_workflow.requests import Cost, of_job, read_costs
 from tests.slurm import cluster
 from tests.workflow.conftest import ROOT
 
@@ -89,7 +89,7 @@ def test_without_benchmarks_there_is_one_line(tmp_path):
 def test_a_large_map_is_drawn_thinned(side, drawn):
     values = np.arange(side * side, dtype=float).reshape(side, side)
     data = xr.Dataset({"abscissa": (("delta", "phi"), values)})
-    found = maps.thinned(data, 10).abscissa.to_numpy()
+    found = domains.thinned(data, 10).abscissa.to_numpy()
     step = -(-side // drawn)
     np.testing.assert_array_equal(found, values[::step, ::step])
     assert found.shape == (drawn, drawn)

@@ -15,7 +15,7 @@ import yaml
 from cyclonedx.schema import SchemaVersion
 from cyclonedx.validation.json import JsonStrictValidator
 
-from publish import audit, locks
+from hopper_workflow.publish import audit, locks
 from tests.reliability import comparison, record
 from tests.workflow.conftest import ROOT, Workflow, copy
 

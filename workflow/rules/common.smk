@@ -2,9 +2,6 @@
 # Common: configuration check, and the code each rule depends on
 # =================================================================================================
 
-from support import code_graph, requests
-
-code_graph.let_scripts_import(ROOT)
 try:
     configuration.check(config, SCHEMA)
 except configuration.ConfigurationError as error:

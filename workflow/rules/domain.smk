@@ -30,7 +30,7 @@ rule compute_friction_curve:
         mu=curve("mu"),
         check=curve("check"),
     script:
-        "../../scripts/compute_friction_curve.py"
+        f"{SCRIPTS}/compute_friction_curve.py"
 
 
 rule compute_map_chunk:
@@ -56,7 +56,7 @@ rule compute_map_chunk:
         chunk=lambda wildcards: int(wildcards.chunk),
         chunks=MAP["chunks"],
     script:
-        "../../scripts/compute_map_chunk.py"
+        f"{SCRIPTS}/compute_map_chunk.py"
 
 
 rule merge_map:
@@ -81,7 +81,7 @@ rule merge_map:
         delta_deg=MAP["delta_deg"],
         phi_deg=MAP["phi_deg"],
     script:
-        "../../scripts/merge_map.py"
+        f"{SCRIPTS}/merge_map.py"
 
 
 rule compute_borders:
@@ -104,7 +104,7 @@ rule compute_borders:
         delta_deg=config["borders"]["delta_deg"],
         check=config["borders"]["check"],
     script:
-        "../../scripts/compute_borders.py"
+        f"{SCRIPTS}/compute_borders.py"
 
 
 rule compute_domain_angle:
@@ -123,7 +123,7 @@ rule compute_domain_angle:
     params:
         **config["domain_angle"],
     script:
-        "../../scripts/compute_domain_angle.py"
+        f"{SCRIPTS}/compute_domain_angle.py"
 
 
 rule plot_fig_4_4:
@@ -156,7 +156,7 @@ rule plot_fig_4_4:
     params:
         half_angle_deg=curve("half_angle_deg"),
     script:
-        "../../scripts/plot_fig_4_4.py"
+        f"{SCRIPTS}/plot_fig_4_4.py"
 
 
 rule plot_fig_4_5:
@@ -182,7 +182,7 @@ rule plot_fig_4_5:
         half_angles_deg=MAP["half_angles_deg"],
         largest_phi_deg=MAP["phi_deg"]["stop"],
     script:
-        "../../scripts/plot_fig_4_5.py"
+        f"{SCRIPTS}/plot_fig_4_5.py"
 
 
 rule plot_fig_4_5_map:
@@ -211,7 +211,7 @@ rule plot_fig_4_5_map:
         panels=[f"{case.replace('_', ', half angle ')}°" for case in CASES],
         color_range=config["fig_4_5_map"]["color_range"],
     script:
-        "../../scripts/plot_fig_4_5_map.py"
+        f"{SCRIPTS}/plot_fig_4_5_map.py"
 
 
 rule plot_fig_domain_angle:
@@ -236,4 +236,4 @@ rule plot_fig_domain_angle:
         "../../envs/hopper.yaml"
     threads: 1
     script:
-        "../../scripts/plot_fig_domain_angle.py"
+        f"{SCRIPTS}/plot_fig_domain_angle.py"

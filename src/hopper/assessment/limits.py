@@ -46,6 +46,11 @@ class Limits:
     mass_flow: Quantity | None
     tangency: Quantity | None
 
+    @property
+    def fold(self) -> Quantity | None:
+        """``coefficient``, where a fold is what ends the branch."""
+        return self.coefficient if self.friction and self.friction.end == "fold" else None
+
 
 def assess_limits(hopper: Hopper) -> Limits:
     """Return the limits of a hopper's wall friction."""

@@ -81,6 +81,11 @@ class StabilityAssessment:
     transient: Transient | None
 
     @property
+    def line(self) -> Quantity:
+        """Abscissa of the asymptotic line."""
+        return Quantity(self.result.line.abscissa, self.result.line.error_estimate)
+
+    @property
     def verdict(self) -> Verdict:
         """Stable or unstable; neutral where the error of the abscissa exceeds its size."""
         if abs(self.abscissa.value) <= self.abscissa.error:

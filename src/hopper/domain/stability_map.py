@@ -37,6 +37,8 @@ class Sweep:
 
     Attributes
     ----------
+    friction_angle : array, shape (n,)
+        phi, radians.
     region : integer array, shape (n,)
         Index into ``REGIONS``.
     abscissa, line, highest_mode, error_estimate : arrays, shape (n,)
@@ -44,6 +46,7 @@ class Sweep:
         error of the abscissa.
     """
 
+    friction_angle: Array
     region: NDArray[np.int8]
     abscissa: Array
     line: Array
@@ -91,7 +94,7 @@ def sweep_friction(hopper: Hopper, friction_angles: ArrayLike) -> Sweep:
         else:
             region[i] = 0 if result.stable else 1
             values[:, i] = _numbers(result)
-    return Sweep(region, *values)
+    return Sweep(angles, region, *values)
 
 
 def _limit(member: Member | None, highest: float) -> float:

@@ -50,6 +50,11 @@ class FormulaCheck:
     error: float
     missing: Complex
 
+    @property
+    def highest_missing(self) -> float:
+        """Largest real part of ``missing``, minus infinity if there is none."""
+        return float(self.missing.real.max(initial=-np.inf))
+
 
 def check_formula(hopper: Hopper, count: int, m: int) -> FormulaCheck:
     """Compare the ``count`` lowest pairs with the matrix of ``m`` half-grid nodes.

@@ -1,0 +1,103 @@
+"""What an answer about one hopper consists of: one list for text, JSON, files and figures."""
+
+from typing import Any, get_args
+
+from hopper.assessment.radial import RadialAssessment
+from hopper.assessment.stability import StabilityAssessment
+from hopper.assessment.summary import OUTCOMES, Assessment
+from hopper.radial.friction_limit import End
+from hopper_data.radial import STRESS, THETA, angles
+from hopper_data.tables import Table, angle, complex_number, flag, number, within
+
+Part = RadialAssessment | StabilityAssessment
+
+RADIAL: Table = (
+    number("sigma_axis", "average stress on the axis", scale="rho g r"),
+    number("sigma_wall", "average stress at the wall", scale="rho g r"),
+    number("psi_wall", "Sokolovskii angle psi at the wall", units="radian"),
+    number("psi_max", "largest psi", units="radian"),
+    angle("theta_psi_max_deg", "polar angle of the largest psi", source="theta_psi_max"),
+    number("u_wall", "velocity at the wall", scale="u(0)"),
+    number("flow_factor", "flow factor"),
+    number("solutions", "number of radial solutions for this wall"),
+)
+PROFILES: Table = (
+    *THETA,
+    *STRESS,
+    number("u", "radial velocity", "theta", scale="u(0)"),
+)
+TANGENCY: Table = (
+    number("mu_tangency", "mu beyond which stability is not defined", source="tangency"),
+)
+LIMITS: Table = (
+    number("mu_fold", "mu at the fold", source="fold"),
+    number("mu_limit", "largest mu with a radial solution", source="coefficient"),
+    angle("mass_flow_limit_deg", "mass-flow limit of phi", source="mass_flow"),
+    *TANGENCY,
+)
+STABILITY: Table = (
+    number("line", "asymptotic line of Re(lambda)"),
+    number("abscissa", "supremum of Re(lambda)"),
+    number(
+        "transient_amplification", "transient amplification",
+        source="transient.amplification", scale="exp(-t abscissa)",
+    ),
+    number(
+        "transient_growth", "transient growth, largest norm of exp(-tM)",
+        source="transient.growth",
+    ),
+    number("kappa", "condition number of the modes", source="transient.condition"),
+    number("transient_modes", "number of modes followed", source="transient.modes"),
+)  # fmt: skip
+SPECTRUM: Table = (
+    complex_number("eigenvalue", "the eigenvalue", "mode", source="spectrum"),
+    number("eigenvalue_error", "error of the eigenvalue", "mode", source="spectrum_errors"),
+)
+GOVERNED_BY = flag(
+    "governed_by", "what sets the abscissa", ("mode", "line"), source="result.governed_by"
+)
+NEUTRAL: Table = (angle("delta_neutral_deg", "neutral angle of internal friction", source="delta"),)
+WHOLE: Table = (
+    flag("outcome", "verdict of stability, or why there is none", OUTCOMES),
+    *within("profiles", PROFILES),
+    *within("radial", RADIAL),
+    *within("stability", (*SPECTRUM, GOVERNED_BY, *STABILITY)),
+    flag(
+        "limit_end", "what ends the solutions at mu_limit", get_args(End),
+        source="limits.friction.end",
+    ),
+    *within("limits", LIMITS),
+)  # fmt: skip
+
+
+def profiles(radial: RadialAssessment) -> dict[str, Any]:
+    """Return theta (radians), sigma, psi (radians) and u of a radial solution, by these names.
+
+    Over [-theta_w, theta_w], of one shape; u is None where the velocity is not known.
+    """
+    theta = angles(radial.solution.hopper.half_angle)
+    return dict(zip(("theta", "sigma", "psi", "u"), (theta, *radial.profiles(theta)), strict=True))
+
+
+def arrays(found: Part) -> tuple[Any, Table]:
+    """Return the arrays of a part of an assessment and the table that describes them."""
+    if isinstance(found, RadialAssessment):
+        return profiles(found), PROFILES
+    return found, SPECTRUM
+
+
+def described(found: Part | Assessment) -> tuple[Any, Table]:
+    """Return all that a part of an assessment, or a whole one, holds, and its table."""
+    if isinstance(found, RadialAssessment):
+        return {"profiles": profiles(found), "radial": found}, (
+            *within("profiles", PROFILES), *within("radial", RADIAL),
+        )  # fmt: skip
+    if isinstance(found, StabilityAssessment):
+        return found, (*SPECTRUM, GOVERNED_BY, *STABILITY)
+    return {**vars(found), "profiles": found.radial and profiles(found.radial)}, WHOLE
+
+
+def comment(found: Assessment) -> dict[str, str]:
+    """Return why parts of an assessment do not exist, as the attribute `comment`, if any."""
+    reasons = [*(found.radial.notes if found.radial else ()), *filter(None, [found.reason])]
+    return {"comment": "; ".join(reasons)} if reasons else {}

@@ -1,0 +1,96 @@
+"""From a result and a table that describes it to a dataset of CF variables, and back to names."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from hopper.assessment.quantity import Quantity
+from hopper_data.tables import Variable, number, parts
+
+CfVariable = tuple[tuple[str, ...], Any, dict[str, Any]]
+
+
+def dataset(
+    result: Any,
+    table: Iterable[Variable],
+    coordinates: Iterable[Variable] = (),
+    leading: str = "",
+    attributes: Mapping[str, Any] | None = None,
+) -> xr.Dataset:
+    """Return a dataset in the form of CF files: flags as codes, complex numbers in two parts.
+
+    What is None in the result is left out; a quantity is followed by its error.
+
+    Parameters
+    ----------
+    result : object or mapping
+        Where the sources of the variables lead from.
+    table, coordinates : iterables of Variable
+        Data and coordinates.
+    leading : str
+        Dimensions in front of those of every variable in ``table``, separated by spaces.
+    attributes : mapping, optional
+        Global attributes.
+    """
+    data = _variables(result, table, tuple(leading.split()))
+    return xr.Dataset(data, _variables(result, coordinates, ()), attributes)
+
+
+def _variables(
+    result: Any, table: Iterable[Variable], leading: tuple[str, ...]
+) -> dict[str, CfVariable]:
+    found: dict[str, CfVariable] = {}
+    for variable in table:
+        values = variable.of(result)
+        if values is not None:
+            found |= _described(variable, values, leading + tuple(variable.over.split()))
+    return found
+
+
+def _described(variable: Variable, values: Any, over: tuple[str, ...]) -> dict[str, CfVariable]:
+    if isinstance(values, Quantity):
+        error = number(f"{variable.name}_error", f"error estimate of {variable.name}")
+        return _described(variable, values.value, over) | _described(
+            replace(error, units=variable.units), values.error, over
+        )
+    found: dict[str, CfVariable] = {}
+    for part, numbers in parts(variable, values):
+        attributes: dict[str, Any] = {"long_name": part.long_name}
+        if part.kind == "flag":
+            numbers = _codes(numbers, part.meanings)
+            attributes["flag_values"] = np.arange(len(part.meanings), dtype=np.int8)
+            attributes["flag_meanings"] = " ".join(part.meanings)
+        elif part.kind != "text":
+            attributes["units"] = part.units
+        found[part.name] = over, numbers, attributes
+    return found
+
+
+def _codes(values: Any, meanings: tuple[str, ...]) -> np.ndarray:
+    codes = np.asarray(values)
+    if codes.dtype.kind in "UO":
+        codes = np.reshape([meanings.index(str(word)) for word in codes.flat], codes.shape)
+    return codes.astype(np.int8)
+
+
+def decoded(stored: xr.Dataset) -> xr.Dataset:
+    """Return a dataset with the names of its flags, and its complex numbers in one piece."""
+    result = stored.copy()
+    for name in list(stored.variables):
+        variable = stored[name]
+        if "flag_meanings" in variable.attrs:
+            # References to a few words: as large as the numbers of a map beside them.
+            words = np.array(variable.attrs["flag_meanings"].split(), dtype=object)
+            attributes = {key: variable.attrs[key] for key in ("long_name",)}
+            result[name] = (variable.dims, words[variable.to_numpy()], attributes)
+        elif str(name).endswith("_real") and (base := str(name)[:-5]) + "_imag" in stored:
+            parts = variable, stored[f"{base}_imag"]
+            long_name = variable.attrs["long_name"].removeprefix("real part of ")
+            attributes = {**variable.attrs, "long_name": long_name}
+            values = parts[0].to_numpy() + 1j * parts[1].to_numpy()
+            result = result.drop_vars([f"{base}_real", f"{base}_imag"])
+            result[base] = (variable.dims, values, attributes)
+    return result
