@@ -9,8 +9,8 @@ import xarray as xr
 
 from hopper_workflow import artifacts, jobs, paper_checks, ranges
 from hopper.domain.borders import borders
-from hopper.domain.neutral import ROOT_TOLERANCE, neutral_curve, neutral_delta
-from hopper.problem import Hopper, as_geometry
+from hopper.domain.neutral import ROOT_TOLERANCE, NeutralCurve, neutral_curve, neutral_delta
+from hopper.problem import Geometry, Hopper, as_geometry
 from hopper.radial.solution import solve_radial
 from hopper_data.datasets import dataset
 from hopper_data.domain import BORDERS, NEUTRAL_CURVE
@@ -38,30 +38,33 @@ def compute_borders(
         np.degrees(neutral.delta[0]),
         np.degrees(neutral.friction_angle[-1]),
     )
-    points, meshes = check["points"], {name: check[name] for name in check if name != "points"}
-    # At given frictions, not at points of the curve, whose number depends on rounding.
-    frictions = neutral.friction_angle[-1] * np.arange(points) / points
-    deltas = [
-        neutral_delta(shape, half_angle, phi, np.interp(phi, neutral.friction_angle, neutral.delta))
-        for phi in frictions
-    ]
-    solutions = [
-        solve_radial(Hopper(shape, delta, half_angle), phi)
-        for delta, phi in zip(deltas, frictions, strict=True)
-    ]
     axis = ranges.spaced(**delta_deg)
     result = {
         "neutral": neutral,
         "neutral_error": ROOT_TOLERANCE,
-        "check": {
-            "delta": deltas,
-            "phi": frictions,
-            **paper_checks.compared(solutions, **meshes),
-        },
+        "check": _check(shape, half_angle, neutral, **check),
         "borders": borders(shape, half_angle, np.radians(axis)),
         "delta": axis,
     }
     return dataset(result, TABLE, AXES)
+
+
+def _check(
+    geometry: Geometry, half_angle: float, neutral: NeutralCurve, *, points: int, **meshes: Any
+) -> dict[str, Any]:
+    # At given frictions, not at points of the curve, whose number depends on rounding.
+    frictions = neutral.friction_angle[-1] * np.arange(points) / points
+    guesses = np.interp(frictions, neutral.friction_angle, neutral.delta)
+    deltas = [
+        neutral_delta(geometry, half_angle, phi, guess)
+        for phi, guess in zip(frictions, guesses, strict=True)
+    ]
+    solutions = [
+        solve_radial(Hopper(geometry, delta, half_angle), phi)
+        for delta, phi in zip(deltas, frictions, strict=True)
+    ]
+    compared = paper_checks.compared(solutions, **meshes)
+    return {"delta": deltas, "phi": frictions, **compared}
 
 
 TABLE = (

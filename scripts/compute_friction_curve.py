@@ -44,10 +44,7 @@ def compute_friction_curve(
     result = {
         "sweeps": [sweep_friction(hopper, np.arctan(friction)) for hopper in hoppers],
         "ends": ends,
-        "check": {
-            "mu": checked,
-            **paper_checks.compared(solutions, np.shape(checked), **meshes),
-        },
+        "check": {"mu": checked, **paper_checks.compared(solutions, np.shape(checked), **meshes)},
         "delta": deltas_deg,
         "mu": friction,
     }

@@ -146,10 +146,7 @@ TABLE = (
                 "formula.missing.size",
             ),
             number(
-                "missing_real",
-                "largest real part of these",
-                "geometry",
-                "formula.highest_missing",
+                "missing_real", "largest real part of these", "geometry", "formula.highest_missing"
             ),
             angle("neutral_root", "delta at which the first pair crosses Re = 0", "geometry"),
             angle(

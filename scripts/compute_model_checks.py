@@ -90,8 +90,7 @@ def _over_delta(laws: list[YieldCondition], deltas: np.ndarray, psi_points: int)
 _FIELD: Table = (
     number("yield_residual", "residual of the yield condition"),
     number(
-        "ratio_residual",
-        "residual of the ratio of extreme principal stresses, NaN for von Mises",
+        "ratio_residual", "residual of the ratio of extreme principal stresses, NaN for von Mises"
     ),
     number("hoop_residual", "residual of the law for the hoop stress"),
     number("wall_mu", "tangential over normal stress at the wall"),

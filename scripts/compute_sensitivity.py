@@ -59,15 +59,7 @@ def compute_sensitivity(
         "frequency": y,
         "elapsed": times,
     }
-    logging.info(
-        "%s, %s: distance to instability %.4g, largest condition %.4g, Kreiss bound %.4g <= %.4g",
-        hopper["geometry"],
-        mode,
-        measures.distance,
-        result["condition"].max(),
-        measures.kreiss,
-        result["relative_growth"].max(),
-    )
+    logging.info("%s, %s: %s", hopper["geometry"], mode, measures)
     return dataset(result, TABLE, AXES)
 
 

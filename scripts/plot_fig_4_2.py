@@ -23,8 +23,14 @@ def draw(wedge: str, cone: str, wedge_exact: str, cone_exact: str, *, zoom_imag:
         )
         crosses = theory.eigenvalue.to_numpy()[shown]
         crosses = crosses[np.abs(crosses.imag) <= zoom_imag]
-        bottom.plot(crosses.real, crosses.imag, "x", color=plotting.ORANGE, markersize=5,
-                    label=f"exact, {equation}")  # fmt: skip
+        bottom.plot(
+            crosses.real,
+            crosses.imag,
+            "x",
+            color=plotting.ORANGE,
+            markersize=5,
+            label=f"exact, {equation}",
+        )
         bottom.set_ylim(-zoom_imag, zoom_imag)
         top.set_title(f"{geometry}: {int(data.run_stop - data.run_start)} converged eigenvalues")
         bottom.set_title(f"{geometry}: comparison with smooth-wall theory")
@@ -45,10 +51,24 @@ def _draw_spectrum(axis: Axes, data: xr.Dataset) -> None:
     values = data.eigenvalue.to_numpy()[run]
     kept = data.kept.to_numpy()[run] == "yes"
     axis.axvline(0, color="0.5", linewidth=0.6)
-    axis.plot(values[~kept].real, values[~kept].imag, "o", markersize=5, mfc="none", mew=0.6,
-              color=plotting.BLUE, label="nearest match only")  # fmt: skip
-    axis.plot(values[kept].real, values[kept].imag, "o", markersize=2.6, color=plotting.BLUE,
-              label="resolved")  # fmt: skip
+    axis.plot(
+        values[~kept].real,
+        values[~kept].imag,
+        "o",
+        markersize=5,
+        mfc="none",
+        mew=0.6,
+        color=plotting.BLUE,
+        label="nearest match only",
+    )
+    axis.plot(
+        values[kept].real,
+        values[kept].imag,
+        "o",
+        markersize=2.6,
+        color=plotting.BLUE,
+        label="resolved",
+    )
 
 
 if __name__ == "__main__":

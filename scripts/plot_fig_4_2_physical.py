@@ -17,8 +17,13 @@ def draw(wedge: str, cone: str, wedge_line: str, cone_line: str) -> Figure:
         color = plotting.GEOMETRY_COLORS[geometry]
         top, bottom = axes[:, column]
         top.axvline(0, color="0.5", linewidth=0.6)
-        top.axvline(line, color=plotting.BLACK, linewidth=0.8, linestyle="--",
-                    label=rf"$\Lambda$ = {line:.6f}")  # fmt: skip
+        top.axvline(
+            line,
+            color=plotting.BLACK,
+            linewidth=0.8,
+            linestyle="--",
+            label=rf"$\Lambda$ = {line:.6f}",
+        )
         top.plot(modes.real, modes.imag, "o", markersize=2.6, color=color, label="physical modes")
         top.set_title(f"{geometry}: {modes.size} physical modes")
         top.set_xlabel(r"Re $\lambda$")

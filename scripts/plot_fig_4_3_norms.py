@@ -17,9 +17,14 @@ def draw(wedge: str, cone: str) -> Figure:
             for i, (norm, color) in enumerate(_NORMS):
                 for j, style in enumerate(("-", ":")):
                     scale = float(data.psi_scale[j])
-                    axis.semilogy(data.elapsed, relative.isel(norm=i, psi_scale=j), color=color,
-                                  linestyle=style, linewidth=0.9,
-                                  label=rf"{norm}, $\psi$ scale {scale:g}")  # fmt: skip
+                    axis.semilogy(
+                        data.elapsed,
+                        relative.isel(norm=i, psi_scale=j),
+                        color=color,
+                        linestyle=style,
+                        linewidth=0.9,
+                        label=rf"{norm}, $\psi$ scale {scale:g}",
+                    )
             axis.set_title(f"{title}, {mode} modes")
             axis.set_xlim(0, float(data.elapsed.max()))
             axis.set_ylim(bottom=0.9)

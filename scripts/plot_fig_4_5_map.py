@@ -29,8 +29,15 @@ def draw(
         whole = artifacts.read(path)
         data = domains.thinned(whole, _MOST)
         _mark_undecided(axis, data)
-        mesh = axis.pcolormesh(data.delta, data.phi, data.abscissa.T, cmap="RdBu_r", norm=norm,
-                               shading="nearest", rasterized=True)  # fmt: skip
+        mesh = axis.pcolormesh(
+            data.delta,
+            data.phi,
+            data.abscissa.T,
+            cmap="RdBu_r",
+            norm=norm,
+            shading="nearest",
+            rasterized=True,
+        )
         domains.draw_borders(axis, artifacts.read(border))
         axis.set_xlim(float(whole.delta.min()), float(whole.delta.max()))
         axis.set_ylim(0, float(whole.phi.max()))
@@ -39,8 +46,13 @@ def draw(
         axis.set_xlabel(r"angle of internal friction $\delta$ (degrees)")
     for axis in axes[:, 0]:
         axis.set_ylabel(r"angle of wall friction $\phi$ (degrees)")
-    figure.colorbar(mesh, ax=axes, label=r"max Re $\lambda$ (red: unstable, blue: stable)",
-                    shrink=0.7, extend="both")  # fmt: skip
+    figure.colorbar(
+        mesh,
+        ax=axes,
+        label=r"max Re $\lambda$ (red: unstable, blue: stable)",
+        shrink=0.7,
+        extend="both",
+    )
     figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return figure
 
@@ -49,8 +61,14 @@ def _mark_undecided(axis: Axes, data: xr.Dataset) -> None:
     """Grey, by reason, wherever there is no verdict."""
     for name, (color, label) in _GREYS.items():
         mask = np.where(data.region == name, 1.0, np.nan).T
-        axis.pcolormesh(data.delta, data.phi, mask, cmap=ListedColormap([color]),
-                        shading="nearest", rasterized=True)  # fmt: skip
+        axis.pcolormesh(
+            data.delta,
+            data.phi,
+            mask,
+            cmap=ListedColormap([color]),
+            shading="nearest",
+            rasterized=True,
+        )
         axis.fill([], [], color=color, label=label)
 
 

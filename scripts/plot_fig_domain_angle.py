@@ -16,8 +16,13 @@ def draw(artifact: str) -> Figure:
     for index, color in enumerate(plotting.sequence(data.sizes["phi"])):
         curve = data.neutral_delta.isel(phi=index)
         if np.isfinite(curve).any():
-            right.plot(data.half_angle, curve, "o-", color=color,
-                       label=rf"$\phi$ = {float(data.phi[index]):g}°")  # fmt: skip
+            right.plot(
+                data.half_angle,
+                curve,
+                "o-",
+                color=color,
+                label=rf"$\phi$ = {float(data.phi[index]):g}°",
+            )
     right.set_ylabel(r"neutral $\delta$ (degrees)")
     right.legend(ncols=2)
     for axis in (left, right):

@@ -31,22 +31,44 @@ def shade(axis: Axes, data: xr.Dataset) -> None:
     axis.fill(
         np.concatenate([data.neutral_delta, right, closing]),
         np.concatenate([data.neutral_phi, tangency[beyond], np.zeros(closing.size)]),
-        color=_SHADES["stable"], linewidth=0, label="stable",
-    )  # fmt: skip
+        color=_SHADES["stable"],
+        linewidth=0,
+        label="stable",
+    )
 
 
 def draw_borders(axis: Axes, data: xr.Dataset) -> None:
     """Draw the neutral curve and the borders the paper leaves out."""
     delta = data.delta.values
     axis.plot(delta, delta, color=plotting.BLACK, linewidth=0.8, label=r"$\phi = \delta$")
-    axis.plot(delta, data.limit_phi, color=plotting.PURPLE, linestyle="-.",
-              label="largest friction with a solution")  # fmt: skip
-    axis.plot(delta, data.singular_velocity_phi, color=plotting.GREEN, linestyle=":",
-              label=r"$\psi = \pi/4$")  # fmt: skip
-    axis.plot(delta, data.tangency_phi, color=plotting.ORANGE, linestyle="--",
-              label=r"tangency, $\psi = \pi/4 - \delta/2$")  # fmt: skip
-    axis.plot(data.neutral_delta, data.neutral_phi, color=plotting.BLUE, linewidth=1.6,
-              label="neutral stability")  # fmt: skip
+    axis.plot(
+        delta,
+        data.limit_phi,
+        color=plotting.PURPLE,
+        linestyle="-.",
+        label="largest friction with a solution",
+    )
+    axis.plot(
+        delta,
+        data.singular_velocity_phi,
+        color=plotting.GREEN,
+        linestyle=":",
+        label=r"$\psi = \pi/4$",
+    )
+    axis.plot(
+        delta,
+        data.tangency_phi,
+        color=plotting.ORANGE,
+        linestyle="--",
+        label=r"tangency, $\psi = \pi/4 - \delta/2$",
+    )
+    axis.plot(
+        data.neutral_delta,
+        data.neutral_phi,
+        color=plotting.BLUE,
+        linewidth=1.6,
+        label="neutral stability",
+    )
     axis.set_xlim(delta.min(), delta.max())
 
 

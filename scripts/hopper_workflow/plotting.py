@@ -19,8 +19,14 @@ from hopper_workflow.artifacts import replacing
 
 COLUMN_WIDTH, PAGE_WIDTH = 3.5, 7.1  # inches
 BLUE, ORANGE, GREEN, PURPLE, AMBER, SKY, BLACK = (
-    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000",
-)  # fmt: skip
+    "#0072B2",
+    "#D55E00",
+    "#009E73",
+    "#CC79A7",
+    "#E69F00",
+    "#56B4E9",
+    "#000000",
+)
 MODEL_STYLES = {
     "mohr-coulomb": {"linestyle": "-", "label": "Mohr-Coulomb"},
     "von-mises": {"linestyle": "--", "label": "von Mises"},
@@ -87,7 +93,8 @@ def level_bar(
     figure: Figure, axes: Any, cmap: str, norm: Normalize, levels: Sequence[float], label: str
 ) -> None:
     """Add a colour bar whose ticks are the contour levels, as powers of ten."""
-    bar = figure.colorbar(ScalarMappable(norm, cmap), ax=axes, location="bottom", shrink=0.6,
-                          aspect=40, label=label)  # fmt: skip
+    bar = figure.colorbar(
+        ScalarMappable(norm, cmap), ax=axes, location="bottom", shrink=0.6, aspect=40, label=label
+    )
     bar.set_ticks(levels, labels=[rf"$10^{{{level:g}}}$" for level in levels])
     bar.ax.minorticks_off()

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 from hopper.yield_conditions import MOHR_COULOMB, VON_MISES, YieldCondition
 
@@ -39,6 +40,8 @@ class Hopper:
     delta: float
     half_angle: float
     material: YieldCondition = MOHR_COULOMB
+
+    __repr__ = brief("geometry", "delta deg", "half_angle deg", "material.name")
 
     def __post_init__(self) -> None:
         if self.geometry not in get_args(Geometry):

@@ -12,6 +12,7 @@ and differ only in the four numbers of :class:`YieldCondition`.
 from dataclasses import dataclass
 from math import asin, atan, cos, degrees, sin, sqrt, tan
 
+from hopper.brief import brief
 from hopper.errors import InvalidParameterError, WallFrictionError
 
 _ROUNDING = 1e-14
@@ -26,6 +27,8 @@ class YieldCondition:
     angular: float
     hoop: float
     hoop_cosine: float
+
+    __repr__ = brief("name")
 
     def wall_angle(self, delta: float, friction_angle: float) -> float:
         """Return psi_w (radians) of a wall of the given friction angle (radians).

@@ -13,9 +13,13 @@ from hopper_data.files import replacing
 from hopper_data.inputs import Case
 
 _STYLE = {
-    "font.size": 8, "figure.titlesize": 8, "legend.frameon": False, "savefig.dpi": 200,
-    "pdf.fonttype": 42, "svg.hashsalt": "hopper",
-}  # fmt: skip
+    "font.size": 8,
+    "figure.titlesize": 8,
+    "legend.frameon": False,
+    "savefig.dpi": 200,
+    "pdf.fonttype": 42,
+    "svg.hashsalt": "hopper",
+}
 # Nothing that varies between runs.
 _METADATA: dict[str, dict[str, None]] = {
     ".png": {"Software": None},

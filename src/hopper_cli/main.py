@@ -89,9 +89,11 @@ def _parser() -> argparse.ArgumentParser:
     for command, profile in ((radial, "fields over the polar angle"), (stability, "eigenvalues")):
         _add_geometry(command)
         command.add_argument(
-            "--model", choices=["mohr-coulomb", "von-mises"], default="mohr-coulomb",
+            "--model",
+            choices=["mohr-coulomb", "von-mises"],
+            default="mohr-coulomb",
             help="yield condition, default %(default)s; von-mises: cones, radial fields only",
-        )  # fmt: skip
+        )
         command.add_argument(
             "--delta", type=_angle, required=True, metavar="DEG", help="angle of internal friction"
         )

@@ -21,11 +21,7 @@ RADIAL: Table = (
     number("flow_factor", "flow factor"),
     number("solutions", "number of radial solutions for this wall"),
 )
-PROFILES: Table = (
-    *THETA,
-    *STRESS,
-    number("u", "radial velocity", "theta", scale="u(0)"),
-)
+PROFILES: Table = (*THETA, *STRESS, number("u", "radial velocity", "theta", scale="u(0)"))
 TANGENCY: Table = (
     number("mu_tangency", "mu beyond which stability is not defined", source="tangency"),
 )
@@ -39,16 +35,17 @@ STABILITY: Table = (
     number("line", "asymptotic line of Re(lambda)"),
     number("abscissa", "supremum of Re(lambda)"),
     number(
-        "transient_amplification", "transient amplification",
-        source="transient.amplification", scale="exp(-t abscissa)",
+        "transient_amplification",
+        "transient amplification",
+        source="transient.amplification",
+        scale="exp(-t abscissa)",
     ),
     number(
-        "transient_growth", "transient growth, largest norm of exp(-tM)",
-        source="transient.growth",
+        "transient_growth", "transient growth, largest norm of exp(-tM)", source="transient.growth"
     ),
     number("kappa", "condition number of the modes", source="transient.condition"),
     number("transient_modes", "number of modes followed", source="transient.modes"),
-)  # fmt: skip
+)
 SPECTRUM: Table = (
     complex_number("eigenvalue", "the eigenvalue", "mode", source="spectrum"),
     number("eigenvalue_error", "error of the eigenvalue", "mode", source="spectrum_errors"),
@@ -63,11 +60,13 @@ WHOLE: Table = (
     *within("radial", RADIAL),
     *within("stability", (*SPECTRUM, GOVERNED_BY, *STABILITY)),
     flag(
-        "limit_end", "what ends the solutions at mu_limit", get_args(End),
+        "limit_end",
+        "what ends the solutions at mu_limit",
+        get_args(End),
         source="limits.friction.end",
     ),
     *within("limits", LIMITS),
-)  # fmt: skip
+)
 
 
 def profiles(radial: RadialAssessment) -> dict[str, Any]:
@@ -90,8 +89,9 @@ def described(found: Part | Assessment) -> tuple[Any, Table]:
     """Return all that a part of an assessment, or a whole one, holds, and its table."""
     if isinstance(found, RadialAssessment):
         return {"profiles": profiles(found), "radial": found}, (
-            *within("profiles", PROFILES), *within("radial", RADIAL),
-        )  # fmt: skip
+            *within("profiles", PROFILES),
+            *within("radial", RADIAL),
+        )
     if isinstance(found, StabilityAssessment):
         return found, (*SPECTRUM, GOVERNED_BY, *STABILITY)
     return {**vars(found), "profiles": found.radial and profiles(found.radial)}, WHOLE

@@ -12,6 +12,7 @@ from typing import Any, Literal
 import numpy as np
 
 from hopper.assessment.quantity import Quantity
+from hopper.brief import brief
 
 Kind = Literal["number", "angle", "complex", "flag", "text"]
 
@@ -53,6 +54,8 @@ class Variable:
     scale: str = ""
     power: int = 1
     meanings: tuple[str, ...] = ()
+
+    __repr__ = brief("name", "label", "over", "units")
 
     @property
     def long_name(self) -> str:
@@ -149,6 +152,8 @@ class Row:
     variable: Variable
     value: float | None
     error: float | None = None
+
+    __repr__ = brief("variable.name", "value", "error")
 
     @property
     def relative_error(self) -> float:

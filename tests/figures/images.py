@@ -22,10 +22,7 @@ _RENDERER = BASELINE / "renderer.txt"
 def comparison(name: str) -> pytest.MarkDecorator:
     """Return the mark by which pytest-mpl compares what a test returns with a stored image."""
     return pytest.mark.mpl_image_compare(
-        filename=f"{name}.png",
-        style=STYLE,
-        savefig_kwargs=SAVING,
-        tolerance=TOLERANCE,
+        filename=f"{name}.png", style=STYLE, savefig_kwargs=SAVING, tolerance=TOLERANCE
     )
 
 

@@ -250,11 +250,7 @@ def test_least_wall_friction_of_a_weak_material(geometry, material, delta, half_
 
 @pytest.mark.parametrize(
     ("geometry", "material", "delta", "half_angle"),
-    [
-        ("wedge", MOHR_COULOMB, 8, 50),
-        ("cone", MOHR_COULOMB, 6, 59),
-        ("cone", VON_MISES, 5, 68),
-    ],
+    [("wedge", MOHR_COULOMB, 8, 50), ("cone", MOHR_COULOMB, 6, 59), ("cone", VON_MISES, 5, 68)],
 )
 @pytest.mark.parametrize("fraction", [0.0, 0.5, 0.9])
 def test_material_too_weak_for_any_wall(geometry, material, delta, half_angle, fraction):

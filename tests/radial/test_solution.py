@@ -93,14 +93,7 @@ def test_fields_satisfy_the_equations_of_motion(kind, delta, half_angle, fractio
     psi = Chebyshev.interpolate(lambda t: solution.fields(t)[1], 160, domain)
     theta = np.linspace(hopper.half_angle / 20, hopper.half_angle * 0.98, 30)
     residuals = witness.momentum(
-        model,
-        k,
-        s,
-        theta,
-        sigma(theta),
-        psi(theta),
-        sigma.deriv()(theta),
-        psi.deriv()(theta),
+        model, k, s, theta, sigma(theta), psi(theta), sigma.deriv()(theta), psi.deriv()(theta)
     )
     assert np.abs(residuals).max() < 1e-9 * (1 + np.abs(sigma(theta)).max())
     # The slopes that the equations prescribe are those of the series.

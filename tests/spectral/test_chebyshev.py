@@ -111,10 +111,7 @@ def test_half_nodes_are_the_positive_half():
 
 @pytest.mark.parametrize(
     ("parity", "function"),
-    [
-        ("even", lambda x: np.cos(3 * x) / (1 + x**2)),
-        ("odd", lambda x: np.sin(3 * x) / (1 + x**2)),
-    ],
+    [("even", lambda x: np.cos(3 * x) / (1 + x**2)), ("odd", lambda x: np.sin(3 * x) / (1 + x**2))],
 )
 def test_half_grid_operators_equal_the_full_ones(parity, function):
     m = 20

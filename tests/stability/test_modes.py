@@ -78,14 +78,8 @@ def test_low_modes_by_shooting(geometry, mu):
 @pytest.mark.parametrize(
     ("geometry", "expected"),
     [
-        (
-            "wedge",
-            [-1.6901729747, 0.6565572222 + 34.4981225575j, 0.6553231053 + 69.1155862467j],
-        ),
-        (
-            "cone",
-            [-4.3803555504, -0.2027465702 + 41.9624728598j, -0.2026228243 + 77.1014751493j],
-        ),
+        ("wedge", [-1.6901729747, 0.6565572222 + 34.4981225575j, 0.6553231053 + 69.1155862467j]),
+        ("cone", [-4.3803555504, -0.2027465702 + 41.9624728598j, -0.2026228243 + 77.1014751493j]),
     ],
 )
 def test_low_modes_of_figure_4_2(geometry, expected):
@@ -186,10 +180,7 @@ def smooth_wall_distances(geometry, half_angle):
     return np.array([*np.abs(modes - exact), abs(line)])
 
 
-@pytest.mark.parametrize(
-    ("geometry", "line_order"),
-    [("wedge", 6), ("cone", 2)],
-)
+@pytest.mark.parametrize(("geometry", "line_order"), [("wedge", 6), ("cone", 2)])
 def test_smooth_wall_theory_is_the_limit_of_small_angles(geometry, line_order):
     # psi is of the order of the half angle: modes deviate by its square, the wedge's line by
     # its sixth power.

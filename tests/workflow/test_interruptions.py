@@ -13,13 +13,7 @@ import pytest
 from hopper_data.files import replacing
 from tests.reliability import comparison, record
 from tests.workflow import interruptions
-from tests.workflow.interruptions import (
-    jobs_of,
-    killed_at_random,
-    resume,
-    started,
-    wait_for,
-)
+from tests.workflow.interruptions import jobs_of, killed_at_random, resume, started, wait_for
 
 pytestmark = pytest.mark.workflow
 SEED = 2000

@@ -30,9 +30,19 @@ SECTIONS: tuple[ModuleType, ...] = (
     section_4_parameters,
 )
 COLUMNS = (
-    "number", "id", "place", "claim", "paper", "computed", "error", "unit", "test", "verdict",
-    "artifact", "remark",
-)  # fmt: skip
+    "number",
+    "id",
+    "place",
+    "claim",
+    "paper",
+    "computed",
+    "error",
+    "unit",
+    "test",
+    "verdict",
+    "artifact",
+    "remark",
+)
 
 
 # The public functions of the sections, by their names.
@@ -84,10 +94,17 @@ def rows(claims: Sequence[Claim], artifacts: Mapping[str, xr.Dataset]) -> list[d
 def _row(number: int, claim: Claim, finding: Finding) -> dict[str, str]:
     known = isfinite(finding.computed)
     values = (
-        str(number), claim.id, claim.place, claim.claim, claim.paper,
+        str(number),
+        claim.id,
+        claim.place,
+        claim.claim,
+        claim.paper,
         f"{finding.computed:.10g}" if known else "none",
         f"{finding.error:.1e}".replace("0.0e+00", "0") if known else "none",
-        claim.unit, claim.test_in_full, finding.verdict, "; ".join(dict.fromkeys(claim.paths)),
+        claim.unit,
+        claim.test_in_full,
+        finding.verdict,
+        "; ".join(dict.fromkeys(claim.paths)),
         finding.remark,
-    )  # fmt: skip
+    )
     return dict(zip(COLUMNS, values, strict=True))

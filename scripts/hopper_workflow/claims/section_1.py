@@ -135,10 +135,12 @@ def thresholds_carry_over(
     widest = float(values(domain, "half_angle").max())
     at_widest = number(domain, "neutral_delta", half_angle=widest, phi=0)
     return below(
-        largest, close, error,
+        largest,
+        close,
+        error,
         f"Without small angles: wedge {full['wedge']:.3f} deg, cone {full['cone']:.3f} deg. For "
         f"cones of half angle {widest:g} deg the neutral delta is {at_widest:.2f} deg.",
-    )  # fmt: skip
+    )
 
 
 def _smooth_neutral(borders: xr.Dataset) -> float:

@@ -45,9 +45,11 @@ def _wall_law(models: xr.Dataset, model: str, small: float) -> Finding:
     mu = values(models, "mu")
     difference = np.abs(values(models, "wall_mu", model=model) - mu)
     return below(
-        float(difference.max()), small, float(values(models, "error_radial", model=model).max()),
+        float(difference.max()),
+        small,
+        float(values(models, "error_radial", model=model).max()),
         "Difference between tangential over normal stress at the wall and mu.",
-    )  # fmt: skip
+    )
 
 
 def wall_angle_of_mohr_coulomb(models: xr.Dataset, *, small: float) -> Finding:

@@ -43,9 +43,11 @@ def _singular_angle(models: xr.Dataset, model: str, small: float) -> Finding:
     difference = np.abs(found - values(models, "printed_limit", model=model))
     delta = values(models, "delta")
     return below(
-        float(difference.max()), small, rounding(90),
+        float(difference.max()),
+        small,
+        rounding(90),
         f"Zero of det A against the printed limit, delta = {delta[0]:g} to {delta[-1]:g} deg.",
-    )  # fmt: skip
+    )
 
 
 def mohr_coulomb_is_nonsingular(models: xr.Dataset, *, small: float) -> Finding:
@@ -92,16 +94,22 @@ def comparable_at_moderate_roughness(
     ]
     text = ", ".join(f"{name} at mu = {mu:g} {d:.3f}" for (name, mu), d in table.items())
     return below(
-        max(table.values()), comparable, _error(moderate),
+        max(table.values()),
+        comparable,
+        _error(moderate),
         f"{text}. On the axis alone the stresses differ by {abs(axis[0] / axis[1] - 1):.0%} at mu "
         f"= {moderate_mu:g}.",
-    )  # fmt: skip
+    )
 
 
 def different_at_large_roughness(
-    moderate: xr.Dataset, rough: xr.Dataset, *, comparable: float, moderate_mu: float,
+    moderate: xr.Dataset,
+    rough: xr.Dataset,
+    *,
+    comparable: float,
+    moderate_mu: float,
     rough_mu: float,
-) -> Finding:  # fmt: skip
+) -> Finding:
     large = {name: _difference(rough, name, rough_mu) for name in ("sigma", "u")}
     grown = all(large[name] > _difference(moderate, name, moderate_mu) for name in large)
     remark = (
@@ -147,8 +155,9 @@ def psi_comes_close_to_quarter_pi(
     largest = number(rough, "psi_max", mu=rough_mu, model="mohr-coulomb")
     other = number(rough, "psi_max", mu=rough_mu, model="von-mises")
     gap = (printed.value - largest) / printed.value
-    finding = below(abs(gap), close, number(rough, "error_radial", mu=rough_mu,
-                                            model="mohr-coulomb"), "")  # fmt: skip
+    finding = below(
+        abs(gap), close, number(rough, "error_radial", mu=rough_mu, model="mohr-coulomb"), ""
+    )
     remark = f"{gap:.1%} below pi/4; von Mises {other:.4f}."
     return Finding(largest, finding.error, finding.verdict, remark)
 
@@ -195,9 +204,10 @@ def solutions_can_be_linearised(models: xr.Dataset) -> Finding:
         f"mu = {mu:g}: {psi:.2f} deg" for mu, psi in zip(values(models, "mu"), largest, strict=True)
     )
     return counted(
-        int(np.sum(largest < tangency)), largest.size,
+        int(np.sum(largest < tangency)),
+        largest.size,
         f"Largest psi at {text}; the tangency is at {tangency:.2f} deg.",
-    )  # fmt: skip
+    )
 
 
 def mohr_coulomb_is_more_conservative(
@@ -210,7 +220,8 @@ def mohr_coulomb_is_more_conservative(
     limits = [number(models, "limit_mu", model=model) for model in ("mohr-coulomb", "von-mises")]
     pairs = ", ".join(f"{a:.4g}/{b:.4g}" for a, b in zip(coulomb, von_mises, strict=True))
     return counted(
-        int(np.sum(coulomb < von_mises)), coulomb.size,
+        int(np.sum(coulomb < von_mises)),
+        coulomb.size,
         f"u at the wall, Mohr-Coulomb/von Mises: {pairs}. Radial flow is possible up to mu = "
         f"{limits[0]:.3f}/{limits[1]:.3f}.",
-    )  # fmt: skip
+    )

@@ -48,9 +48,11 @@ def large_friction_destabilises(
     artifacts = (wedge_10, cone_10, wedge_30, cone_30)
     good = [bool(curve[-1] > curve.min() + error.max()) for _, curve, error in _curves(*artifacts)]
     return counted(
-        sum(good), len(good), f"{_named(good, *artifacts)} Curves end at the tangency or at mu = "
+        sum(good),
+        len(good),
+        f"{_named(good, *artifacts)} Curves end at the tangency or at mu = "
         f"{values(wedge_10, 'mu')[-1]:g}.",
-    )  # fmt: skip
+    )
 
 
 def friction_range_is_regular(
@@ -60,15 +62,21 @@ def friction_range_is_regular(
     last = float(values(wedge_10, "mu")[-1])
     ends = np.concatenate([values(data, "tangency_mu") for data in artifacts])
     return counted(
-        int(np.sum(ends > last)), ends.size,
+        int(np.sum(ends > last)),
+        ends.size,
         f"Range plotted: mu up to {last:g}. The earliest tangency is at mu = {ends.min():.3f}.",
-    )  # fmt: skip
+    )
 
 
 def wedge_is_less_stable(
-    wedge_10: xr.Dataset, cone_10: xr.Dataset, wedge_30: xr.Dataset, cone_30: xr.Dataset,
-    smooth: xr.Dataset, *, much: float,
-) -> Finding:  # fmt: skip
+    wedge_10: xr.Dataset,
+    cone_10: xr.Dataset,
+    wedge_30: xr.Dataset,
+    cone_30: xr.Dataset,
+    smooth: xr.Dataset,
+    *,
+    much: float,
+) -> Finding:
     least, where, points, error = np.inf, 0.0, 0, 0.0
     for wedge, cone in ((wedge_10, cone_10), (wedge_30, cone_30)):
         gap = values(wedge, "abscissa", gaps=True) - values(cone, "abscissa", gaps=True)
@@ -88,9 +96,13 @@ def wedge_is_less_stable(
 
 
 def figure_wedge_is_less_stable(
-    wedge_10: xr.Dataset, cone_10: xr.Dataset, wedge_30: xr.Dataset, cone_30: xr.Dataset, *,
+    wedge_10: xr.Dataset,
+    cone_10: xr.Dataset,
+    wedge_30: xr.Dataset,
+    cone_30: xr.Dataset,
+    *,
     much: float,
-) -> Finding:  # fmt: skip
+) -> Finding:
     gaps = [
         values(wedge, "abscissa", gaps=True) - values(cone, "abscissa", gaps=True)
         for wedge, cone in ((wedge_10, cone_10), (wedge_30, cone_30))
@@ -106,9 +118,14 @@ def figure_wedge_is_less_stable(
 
 
 def domain_shrinks_with_opening(
-    domain: xr.Dataset, narrow: xr.Dataset, wide: xr.Dataset, *, considerable: float,
-    narrow_angle: float, wide_angle: float,
-) -> Finding:  # fmt: skip
+    domain: xr.Dataset,
+    narrow: xr.Dataset,
+    wide: xr.Dataset,
+    *,
+    considerable: float,
+    narrow_angle: float,
+    wide_angle: float,
+) -> Finding:
     small, large = (number(domain, "area", half_angle=a) for a in (wide_angle, narrow_angle))
     errors = [number(domain, "area_error", half_angle=a) for a in (wide_angle, narrow_angle)]
     ratio = small / large

@@ -29,9 +29,11 @@ def psi_is_small(linear: xr.Dataset, models: xr.Dataset, *, small: float) -> Fin
 
 def _formula(linear: xr.Dataset, geometry: str, small: float) -> Finding:
     return below(
-        number(linear, "formula_error", geometry=geometry), small, rounding(1),
+        number(linear, "formula_error", geometry=geometry),
+        small,
+        rounding(1),
         "Against (4.3) by collocation, one to one.",
-    )  # fmt: skip
+    )
 
 
 def wedge_formula(linear: xr.Dataset, *, small: float) -> Finding:
@@ -51,10 +53,12 @@ def _all_in_pairs(
     highest = number(linear, "missing_real", geometry=geometry)
     line = number(smooth, "abscissa", geometry=geometry, delta=delta)
     return Finding(
-        missing, 0.0, LIMITED if highest < line else FAILS,
+        missing,
+        0.0,
+        LIMITED if highest < line else FAILS,
         f"Of (4.3) the pairs lack {missing:g}: {formula} = {highest:.4f}, with omega = 0, which is "
         f"lost in reducing to one equation; left of the line at {line:.4f}.",
-    )  # fmt: skip
+    )
 
 
 def wedge_eigenvalues_form_pairs(
@@ -121,10 +125,11 @@ def both_unstable_cone_more(smooth: xr.Dataset, wedge_10: xr.Dataset) -> Finding
     no_stress = flagged(wedge_10, "region", "non_positive_stress")[:, 0]
     rows = values(wedge_10, "delta") < crossing
     finding = counted(
-        int(right[mine].sum()), int(mine.sum()),
+        int(right[mine].sum()),
+        int(mine.sum()),
         f"But a smooth wedge has no radial solution of positive stress at {no_stress[rows].sum()} "
         f"of the {rows.sum()} such delta of the wedge's map.",
-    )  # fmt: skip
+    )
     return limited(finding, bool(no_stress[rows].any()))
 
 

@@ -6,6 +6,7 @@ configuration and published data as its objects, everything the workflow made as
 
 import json
 import mimetypes
+from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from datetime import UTC, datetime
 from pathlib import Path
@@ -55,23 +56,18 @@ def write_crate(path: Path) -> None:
         WORKFLOW, WORKFLOW, main=True, lang="snakemake", properties=_properties(WORKFLOW)
     )
     _describe(crate, workflow, strict_yaml.read_own(CITATION), finished)
-    for file in _files_below(CODE):
-        if file not in data:
-            crate.add_file(file, file, properties=_properties(file))
+    _add_files(crate, [file for file in _files_below(CODE) if file not in data])
     crate.get("README.md")["about"] = crate.root_dataset
-    files = {
-        file: crate.add_file(file, file, properties=_properties(file))
-        for file in [CONFIGURATION, *data, *made]
-    }
+    files = _add_files(crate, [CONFIGURATION, *data, *made])
     for file, sources in made.items():
         if sources:
             files[file]["isBasedOn"] = _compact([files[source] for source in sources])
-
     inputs = {"configuration": [files[CONFIGURATION]], "data": [files[file] for file in data]}
-    outputs = {folder: [files[file] for file in made if file.parts[0] == folder]
-               for folder in sorted({file.parts[0] for file in made})}  # fmt: skip
-    workflow["input"] = [_parameter(crate, name, values) for name, values in inputs.items()]
-    workflow["output"] = [_parameter(crate, name, values) for name, values in outputs.items()]
+    outputs = defaultdict(list)
+    for file in made:
+        outputs[file.parts[0]].append(files[file])
+    for end, found in (("input", inputs), ("output", dict(sorted(outputs.items())))):
+        workflow[end] = [_parameter(crate, name, values) for name, values in found.items()]
     action = crate.add_action(
         workflow,
         identifier="#run",
@@ -86,6 +82,10 @@ def write_crate(path: Path) -> None:
     crate.root_dataset["mentions"] = action
     with replacing(path) as temporary:
         crate.write_zip(temporary)
+
+
+def _add_files(crate: ROCrate, files: Iterable[Path]) -> dict[Path, Entity]:
+    return {file: crate.add_file(file, file, properties=_properties(file)) for file in files}
 
 
 def _describe(crate: ROCrate, workflow: Entity, citation: Mapping[str, Any], finished: str) -> None:

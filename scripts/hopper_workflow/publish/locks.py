@@ -7,9 +7,13 @@ from pathlib import Path
 LOCKS = {
     name: f"requirements{suffix}.lock"
     for name, suffix in (
-        ("run", ""), ("cluster", "-cluster"), ("dev", "-dev"), ("build", "-build"), ("cff", "-cff"),
+        ("run", ""),
+        ("cluster", "-cluster"),
+        ("dev", "-dev"),
+        ("build", "-build"),
+        ("cff", "-cff"),
     )
-}  # fmt: skip
+}
 _PIN = re.compile(r"(?P<name>[a-z0-9][a-z0-9._-]*)==(?P<version>[\w.+!-]+)( ; (?P<marker>.+))?")
 _HASH = re.compile(r"--hash=sha256:([0-9a-f]{64})")
 

@@ -13,7 +13,7 @@ from cyclonedx.model.component import Component, ComponentScope, ComponentType
 from cyclonedx.output.json import JsonV1Dot6
 from packageurl import PackageURL
 
-from hopper import __version__
+import hopper
 from hopper_workflow.artifacts import replacing
 from hopper_workflow.publish import locks
 
@@ -34,12 +34,12 @@ def write_sbom(path: Path, directory: Path) -> None:
         for package in locks.read(directory / lock):
             users[package].add(use)
     components = [_component(package, users[package]) for package in users]
-    hopper = Component(name="hopper", version=__version__, type=ComponentType.APPLICATION)
-    hopper.bom_ref.value = "hopper"
+    root = Component(name="hopper", version=hopper.__version__, type=ComponentType.APPLICATION)
+    root.bom_ref.value = "hopper"
     bom = Bom(components=components)
-    bom.metadata.component = hopper
+    bom.metadata.component = root
     wanted = _direct(directory / "pyproject.toml")
-    bom.register_dependency(hopper, [part for part in components if part.name in wanted])
+    bom.register_dependency(root, [part for part in components if part.name in wanted])
     content = json.loads(JsonV1Dot6(bom).output_as_string())
     # What differs from one writing to the next.
     del content["serialNumber"], content["metadata"]["timestamp"]

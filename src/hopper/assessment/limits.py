@@ -6,6 +6,7 @@ from math import pi, tan
 import numpy as np
 
 from hopper.assessment.quantity import ROUNDING, Quantity, with_errors
+from hopper.brief import brief
 from hopper.domain.borders import tangency_friction
 from hopper.errors import (
     ConvergenceError,
@@ -45,6 +46,8 @@ class Limits:
     coefficient: Quantity | None
     mass_flow: Quantity | None
     tangency: Quantity | None
+
+    __repr__ = brief("coefficient", "mass_flow deg", "tangency")
 
     @property
     def fold(self) -> Quantity | None:

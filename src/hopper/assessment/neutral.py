@@ -7,6 +7,7 @@ from typing import Literal
 from hopper.assessment.limits import coefficient
 from hopper.assessment.quantity import Quantity
 from hopper.assessment.stability import abscissa_with_error
+from hopper.brief import brief
 from hopper.domain.neutral import NoNeutralPointError, neutral_curve, neutral_delta
 from hopper.problem import Geometry, Hopper
 from hopper.radial.solution import solve_radial
@@ -24,6 +25,8 @@ class NeutralPoint:
 
     delta: Quantity
     governed_by: Literal["mode", "line"]
+
+    __repr__ = brief("delta deg", "governed_by")
 
 
 def assess_neutral(geometry: Geometry, half_angle: float, friction_angle: float) -> NeutralPoint:

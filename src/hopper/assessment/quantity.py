@@ -25,6 +25,10 @@ class Quantity:
     value: float
     error: float
 
+    def __repr__(self) -> str:
+        """Return both in one short line."""
+        return f"{self.value:.10g} +- {self.error:.0e}"
+
 
 def with_errors(
     solution: RadialSolution, numbers: Callable[[RadialSolution], Array]

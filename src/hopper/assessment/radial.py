@@ -7,6 +7,7 @@ import numpy as np
 from hopper.arrays import Array
 from hopper.assessment.limits import Limits, assess_limits
 from hopper.assessment.quantity import SHIFT, Quantity, wall_angle_rounding, with_errors
+from hopper.brief import brief
 from hopper.errors import ConvergenceError, NoRadialSolutionError, SingularVelocityError
 from hopper.problem import Hopper
 from hopper.radial.collocation import Member
@@ -51,6 +52,8 @@ class RadialAssessment:
     solutions: int | None
     limits: Limits
     notes: tuple[str, ...]
+
+    __repr__ = brief("sigma_axis", "sigma_wall", "flow_factor", "solutions")
 
     def profiles(self, theta: Array) -> tuple[Array, Array, Array | None]:
         """Return sigma, psi and u at ``theta`` (radians), each of shape (n,); u None if unknown."""
@@ -116,9 +119,9 @@ def _further_members(solution: RadialSolution) -> list[Member]:
 
 def _numbers(solution: RadialSolution) -> Array:
     theta_psi_max, psi_max = solution.psi_maximum()
-    return np.array([
-        solution.sigma_axis, solution.sigma_wall, psi_max, theta_psi_max, flow_factor(solution),
-    ])  # fmt: skip
+    return np.array(
+        [solution.sigma_axis, solution.sigma_wall, psi_max, theta_psi_max, flow_factor(solution)]
+    )
 
 
 def _log_u_wall(solution: RadialSolution) -> Array:

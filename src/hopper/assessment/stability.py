@@ -10,6 +10,7 @@ from scipy.optimize import minimize_scalar
 
 from hopper.arrays import Array, Complex
 from hopper.assessment.quantity import ROUNDING, Quantity, propagated
+from hopper.brief import brief
 from hopper.errors import ConvergenceError
 from hopper.radial.solution import RadialSolution
 from hopper.spectral.transient import ModalBasis, condition_number, propagator_norm
@@ -53,6 +54,8 @@ class Transient:
     amplification: Quantity
     growth: Quantity | None
 
+    __repr__ = brief("modes", "condition", "amplification")
+
 
 @dataclass(frozen=True)
 class StabilityAssessment:
@@ -79,6 +82,8 @@ class StabilityAssessment:
     spectrum: Complex
     spectrum_errors: Array
     transient: Transient | None
+
+    __repr__ = brief("verdict", "abscissa", "result.governed_by")
 
     @property
     def line(self) -> Quantity:

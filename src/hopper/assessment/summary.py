@@ -11,6 +11,7 @@ from hopper.assessment.neutral import NeutralPoint, assess_neutral, largest_neut
 from hopper.assessment.quantity import Quantity
 from hopper.assessment.radial import RadialAssessment, assess_radial, describe_radial
 from hopper.assessment.stability import StabilityAssessment, Transient, Verdict, assess_stability
+from hopper.brief import brief
 from hopper.errors import (
     ConvergenceError,
     HopperError,
@@ -73,6 +74,8 @@ class Assessment:
     stability: StabilityAssessment | None
     outcome: Outcome
     reason: str
+
+    __repr__ = brief("outcome", "stability.abscissa", "limits.coefficient")
 
 
 def assess(hopper: Hopper, friction_angle: float) -> Assessment:

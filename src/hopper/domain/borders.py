@@ -13,11 +13,9 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.domain.neutral import ROOT_TOLERANCE, NeutralCurve
-from hopper.errors import (
-    InvalidParameterError,
-    NoRadialSolutionError,
-)
+from hopper.errors import InvalidParameterError, NoRadialSolutionError
 from hopper.problem import Geometry, Hopper
 from hopper.radial.collocation import Closure, Member
 from hopper.radial.family import family, neighbour
@@ -145,6 +143,8 @@ class Borders:
     end: tuple[str, ...]
     tangency: Array
     singular_velocity: Array
+
+    __repr__ = brief("delta deg", "limit deg", "tangency deg")
 
 
 def borders(geometry: Geometry, half_angle: float, deltas: ArrayLike) -> Borders:

@@ -12,6 +12,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.errors import (
     ConvergenceError,
     HopperError,
@@ -143,6 +144,8 @@ class NeutralCurve:
 
     friction_angle: Array
     delta: Array
+
+    __repr__ = brief("friction_angle deg", "delta deg")
 
     def thinned(self) -> Self:
         """Return every second point, and the last: for an error estimate."""

@@ -6,11 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hopper.arrays import Array
-from hopper.errors import (
-    ConvergenceError,
-    InvalidParameterError,
-    TangencyError,
-)
+from hopper.brief import brief
+from hopper.errors import ConvergenceError, InvalidParameterError, TangencyError
 from hopper.problem import Hopper, require_angle
 from hopper.radial.collocation import Member
 from hopper.radial.family import family_from
@@ -52,6 +49,8 @@ class Sweep:
     line: Array
     highest_mode: Array
     error_estimate: Array
+
+    __repr__ = brief("friction_angle deg", "abscissa", "error_estimate")
 
 
 def sweep_friction(hopper: Hopper, friction_angles: ArrayLike) -> Sweep:

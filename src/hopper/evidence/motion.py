@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hopper.arrays import Array, Complex
+from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 from hopper.radial.grid import half_grid
 from hopper.radial.solution import RadialSolution
@@ -112,6 +113,8 @@ class LevyFactor:
     least: float
     defect: float
 
+    __repr__ = brief("least", "defect")
+
 
 def levy_factor(solution: RadialSolution, velocity: VelocityField) -> LevyFactor:
     """Return how well a von Mises cone obeys Levy's flow rule, for u(0) = 1.
@@ -201,13 +204,17 @@ def _momentum(solution: RadialSolution, k: int, theta: Array, state: Complex) ->
     by_theta = _rate(law, s, sigma, psi, sigma_theta, psi_theta)
     cot = 1 / np.tan(theta)
     radial = (
-        at.rr + by_t.rr + by_theta.rt
-        + (1 + k) * at.rr - at.tt + k * (cot * at.rt - at.pp) + np.cos(theta)
-    )  # fmt: skip
+        at.rr
+        + by_t.rr
+        + by_theta.rt
+        + (1 + k) * at.rr
+        - at.tt
+        + k * (cot * at.rt - at.pp)
+        + np.cos(theta)
+    )
     angular = (
-        at.rt + by_t.rt + by_theta.tt
-        + (2 + k) * at.rt + k * cot * (at.tt - at.pp) - np.sin(theta)
-    )  # fmt: skip
+        at.rt + by_t.rt + by_theta.tt + (2 + k) * at.rt + k * cot * (at.tt - at.pp) - np.sin(theta)
+    )
     return np.array([radial, angular])
 
 
@@ -243,6 +250,10 @@ class FieldCheck:
     coupling_radial: float
     coupling: float
     psi_max: float
+
+    __repr__ = brief(
+        "yield_residual", "hoop_residual", "wall_mu", "exponent", "coupling", "psi_max deg"
+    )
 
 
 def check_field(solution: RadialSolution) -> FieldCheck:

@@ -11,6 +11,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.evidence import motion
 from hopper.radial.solution import RadialSolution
 from hopper.yield_conditions import MOHR_COULOMB, YieldCondition
@@ -68,11 +69,7 @@ def linearised(solution: RadialSolution, theta: Array) -> tuple[Array, Array, Ar
         -(1 + s) * (s2 + (1 - c2) * cot) / 2,
         2 * sigma * (q - s2 * cot),
     ]
-    return (
-        _entries(a, 2 * sigma * s * q),
-        _entries(b, 2 * sigma * q),
-        _entries(c, 2 * sigma * q),
-    )
+    return (_entries(a, 2 * sigma * s * q), _entries(b, 2 * sigma * q), _entries(c, 2 * sigma * q))
 
 
 def _entries(numerators: Sequence[Array | float], denominator: Array) -> Array:
@@ -89,6 +86,8 @@ class Comparison:
 
     ratio: Array
     spread: Array
+
+    __repr__ = brief("ratio", "spread")
 
 
 def compare_linearised(solution: RadialSolution, points: int) -> Comparison:

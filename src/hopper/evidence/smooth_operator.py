@@ -12,6 +12,7 @@ from scipy.optimize import brentq, linear_sum_assignment
 from scipy.special import hyp1f1
 
 from hopper.arrays import Array, Complex
+from hopper.brief import brief
 from hopper.problem import Geometry, Hopper
 from hopper.spectral import chebyshev
 from hopper.stability import smooth_wall
@@ -49,6 +50,8 @@ class FormulaCheck:
 
     error: float
     missing: Complex
+
+    __repr__ = brief("error", "missing")
 
     @property
     def highest_missing(self) -> float:

@@ -21,6 +21,7 @@ import numpy as np
 from scipy.linalg.lapack import dgesv
 
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.errors import ConvergenceError
 from hopper.problem import Hopper
 from hopper.radial.equations import normal_weight, residual_and_jacobian
@@ -58,6 +59,15 @@ class Member:
     u: Array
     tangent: Array
     error: float
+
+    __repr__ = brief(
+        "hopper.geometry",
+        "hopper.delta deg",
+        "hopper.half_angle deg",
+        "tau",
+        "psi_wall deg",
+        "error",
+    )
 
     @property
     def log_ratio(self) -> Array:

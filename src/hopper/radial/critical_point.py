@@ -13,6 +13,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.errors import ConvergenceError
 from hopper.problem import Hopper
 from hopper.radial.collocation import Closure, Member, newton
@@ -38,6 +39,8 @@ class CriticalPoint:
     log_sigma: float
     tau: float
 
+    __repr__ = brief("theta deg", "log_sigma", "tau")
+
 
 @dataclass(frozen=True)
 class LimitingSolution:
@@ -46,6 +49,8 @@ class LimitingSolution:
     psi_wall: float
     tau: float
     error_estimate: float
+
+    __repr__ = brief("psi_wall deg", "tau", "error_estimate deg")
 
 
 def limiting_solution(hopper: Hopper, start: Member) -> LimitingSolution | None:
@@ -128,9 +133,13 @@ def _psi_wall(hopper: Hopper, point: CriticalPoint) -> float:
         return np.concatenate(slopes(hopper, angle, sigma, state[1:]))
 
     reached = solve_ivp(
-        slope, (point.theta + _OFFSET, hopper.half_angle), left, "DOP853",
-        rtol=_RELATIVE, atol=_ABSOLUTE,
-    )  # fmt: skip
+        slope,
+        (point.theta + _OFFSET, hopper.half_angle),
+        left,
+        "DOP853",
+        rtol=_RELATIVE,
+        atol=_ABSOLUTE,
+    )
     if not reached.success:
         raise ConvergenceError(f"limiting solution not resolved: {reached.message}")
     return float(reached.y[1, -1])

@@ -7,6 +7,7 @@ from itertools import takewhile
 from math import degrees
 from typing import Literal
 
+from hopper.brief import brief
 from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.problem import Hopper
 from hopper.radial.collocation import Member
@@ -50,6 +51,8 @@ class FrictionLimit:
     tau: float
     psi_wall: float
     error_estimate: float
+
+    __repr__ = brief("end", "friction_angle deg", "tau", "psi_wall deg", "error_estimate deg")
 
 
 @lru_cache(maxsize=256)

@@ -12,6 +12,7 @@ from functools import lru_cache
 import numpy as np
 
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.spectral import chebyshev
 
 
@@ -28,6 +29,8 @@ class Grid:
     d_even: Array
     d_odd: Array
     axis_row: Array
+
+    __repr__ = brief("size", "half_angle deg", "clustering")
 
     @property
     def size(self) -> int:

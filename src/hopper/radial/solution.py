@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.errors import (
     ConvergenceError,
     InvalidParameterError,
@@ -45,6 +46,16 @@ class RadialSolution:
     friction_angle: float
     branch: Branch
     member: Member
+
+    __repr__ = brief(
+        "hopper.geometry",
+        "hopper.delta deg",
+        "hopper.half_angle deg",
+        "friction_angle deg",
+        "branch",
+        "sigma_axis",
+        "error_estimate",
+    )
 
     @property
     def theta(self) -> Array:

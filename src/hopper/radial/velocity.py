@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.errors import ConvergenceError, InvalidParameterError, SingularVelocityError
 from hopper.problem import as_angles
 from hopper.radial.solution import RadialSolution
@@ -28,6 +29,8 @@ class VelocityField:
     half_angle: float
     log_u: Array
     error_estimate: float
+
+    __repr__ = brief("half_angle deg", "wall", "error_estimate")
 
     def at(self, theta: ArrayLike) -> Array:
         """Return u at ``theta`` (radians, |theta| <= theta_w), shape (n,).

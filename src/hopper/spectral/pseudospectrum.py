@@ -23,6 +23,7 @@ from numpy.typing import ArrayLike
 from scipy.linalg import eig
 
 from hopper.arrays import Array, Complex
+from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 from hopper.spectral.schur import SchurForm, back_substitute, divisors_of
 
@@ -110,10 +111,7 @@ def _lanczos(form: SchurForm, z: Complex, tolerance: float) -> Array:
 
 
 def smallest_singular_values(
-    form: SchurForm,
-    z: ArrayLike,
-    tolerance: float = 1e-6,
-    progress: Progress | None = None,
+    form: SchurForm, z: ArrayLike, tolerance: float = 1e-6, progress: Progress | None = None
 ) -> Array:
     """Return sigma_min(z I - M) at each point.
 
@@ -167,6 +165,8 @@ class Pseudospectrum:
     real: Array
     imag: Array
     sigma_min: Array
+
+    __repr__ = brief("real", "imag", "sigma_min")
 
 
 def pseudospectrum(

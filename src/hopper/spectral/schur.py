@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from scipy.linalg import rsf2csf, schur
 
 from hopper.arrays import Complex, Numbers
+from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 
 # Order of a diagonal block. Fast at n = 100 to 800.
@@ -44,6 +45,13 @@ class SchurForm:
     triangle: Numbers
     panels: tuple[_Panel, ...]
     adjoint_panels: tuple[_Panel, ...]
+
+    __repr__ = brief("size", "is_real", "rounding")
+
+    @property
+    def size(self) -> int:
+        """Order n of the matrix."""
+        return len(self.triangle)
 
     @property
     def is_real(self) -> bool:

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
 from hopper.arrays import Array, Complex
+from hopper.brief import brief
 from hopper.spectral.matching import match_kept
 from hopper.spectral.pseudospectrum import (
     eigenvalue_condition_numbers,
@@ -42,6 +43,8 @@ class KeptSensitivity:
     distance: float
     frequency: float
     kreiss: float
+
+    __repr__ = brief("distance", "frequency", "kreiss")
 
 
 def kept_form(bases: list[ModalBasis]) -> SchurForm:

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 from scipy.linalg import eig, qr, solve_triangular
 
 from hopper.arrays import Array, Complex
+from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 from hopper.spectral.matching import match_kept
 
@@ -35,6 +36,13 @@ class ModalBasis:
 
     eigenvalues: Complex
     factor: Array
+
+    __repr__ = brief("size", "abscissa")
+
+    @property
+    def size(self) -> int:
+        """Number of modes k."""
+        return self.eigenvalues.size
 
     @property
     def abscissa(self) -> float:

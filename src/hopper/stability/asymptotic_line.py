@@ -11,6 +11,7 @@ from math import cos, pi
 import numpy as np
 
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.errors import ConvergenceError
 from hopper.radial.solution import RadialSolution
 from hopper.spectral import chebyshev
@@ -34,6 +35,8 @@ class AsymptoticLine:
     abscissa: float
     spacing: float
     error_estimate: float
+
+    __repr__ = brief("abscissa", "spacing", "error_estimate")
 
 
 def asymptotic_line(solution: RadialSolution) -> AsymptoticLine:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hopper.arrays import Array, Mask
+from hopper.brief import brief
 from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.spectral.matching import relative_changes
 from hopper.stability.mesh_spectrum import HALVES, MeshSpectrum
@@ -45,6 +46,8 @@ class FilteredSpectrum:
     kept: Mask
     kept_as_worded: Mask
     reason: NDArray[np.int8]
+
+    __repr__ = brief("fine.n", "kept", "kept_as_worded")
 
 
 def convergence_filter(

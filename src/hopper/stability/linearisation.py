@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.errors import InvalidParameterError, TangencyError
 from hopper.radial.grid import half_grid
 from hopper.radial.solution import RadialSolution
@@ -50,6 +51,8 @@ class Coefficients:
     f12: Array
     f21: Array
     f22: Array
+
+    __repr__ = brief("sigma", "psi deg", "q")
 
 
 def coefficients(

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eig
 
 from hopper.arrays import Array, Complex
+from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 from hopper.radial.solution import RadialSolution
 from hopper.spectral import chebyshev
@@ -40,6 +41,8 @@ class MeshSpectrum:
     eigenvalues: Complex
     half: NDArray[np.int8]
     tail: Array
+
+    __repr__ = brief("n", "eigenvalues", "tail")
 
 
 def mesh_spectrum(solution: RadialSolution, n: int) -> MeshSpectrum:

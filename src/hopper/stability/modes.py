@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 
 from hopper.arrays import Array, Complex
+from hopper.brief import brief
 from hopper.errors import ConvergenceError
 from hopper.radial.solution import RadialSolution
 from hopper.stability.asymptotic_line import AsymptoticLine, asymptotic_line
@@ -46,6 +47,8 @@ class LinearStability:
     abscissa: float
     governed_by: Literal["mode", "line"]
     error_estimate: float
+
+    __repr__ = brief("abscissa", "governed_by", "line.abscissa", "eigenvalues", "error_estimate")
 
     @property
     def stable(self) -> bool:
