@@ -24,3 +24,9 @@ def _load(package: str) -> None:
 for _package in ("hopper", "hopper_data", "hopper_cli"):
     if _package not in sys.modules:
         _load(_package)
+
+import hopper  # noqa: E402
+import hopper_cli  # noqa: E402
+import hopper_data  # noqa: E402
+
+__all__ = ["hopper", "hopper_cli", "hopper_data"]

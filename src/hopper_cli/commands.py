@@ -10,13 +10,13 @@ from typing import Any
 
 from hopper.assessment.limits import assess_limits, tangency_coefficient
 from hopper.assessment.neutral import assess_neutral, largest_neutral_coefficient
-from hopper.assessment.quantity import Quantity
 from hopper.assessment.radial import assess_radial
 from hopper.assessment.stability import assess_stability
 from hopper.assessment.summary import assess
 from hopper.domain.neutral import NoNeutralPointError
 from hopper.errors import ConvergenceError, HopperError, TangencyError, WallFrictionError
 from hopper.problem import as_geometry
+from hopper.quantity import Quantity
 from hopper.radial.solution import solve_radial
 from hopper_cli import sentences, text
 from hopper_cli.errors import UsageError

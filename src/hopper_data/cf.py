@@ -10,7 +10,7 @@ from typing import Any
 import xarray as xr
 
 import hopper
-from hopper_data.datasets import decoded
+from hopper_data.decoding import decoded
 from hopper_data.files import replacing
 
 WRITTEN_BY = f"written by hopper {hopper.__version__}"

@@ -11,8 +11,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from hopper.assessment.quantity import Quantity
 from hopper.brief import brief
+from hopper.quantity import Quantity
 
 Kind = Literal["number", "angle", "complex", "flag", "text"]
 

@@ -12,7 +12,6 @@ from scipy.optimize import brentq
 
 from hopper.assessment.limits import assess_limits, tangency_coefficient
 from hopper.assessment.neutral import assess_neutral
-from hopper.assessment.quantity import Quantity
 from hopper.assessment.radial import assess_radial, describe_radial
 from hopper.assessment.stability import assess_stability
 from hopper.assessment.summary import assess
@@ -24,6 +23,7 @@ from hopper.errors import (
     WallFrictionError,
 )
 from hopper.problem import Hopper
+from hopper.quantity import Quantity
 from hopper.radial.collocation import Closure, newton
 from hopper.radial.grid import half_grid
 from hopper.radial.solution import RadialSolution, solve_radial

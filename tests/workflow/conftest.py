@@ -155,9 +155,39 @@ def built(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Workflow:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not complete.exists():
             shutil.rmtree(path, ignore_errors=True)
-            copy(path).build()
+            copy(path).build(**_recording(shared / "built"))
             complete.touch()
     return Workflow(path)
+
+
+# What Python runs at start-up where it is found: at its end a job notes the modules it has loaded.
+RECORDER = """
+import atexit, os, sys
+
+def record():
+    job = vars(sys.modules["__main__"]).get("snakemake")
+    if hasattr(job, "rule"):
+        files = {getattr(m, "__file__", None) for n, m in sys.modules.items() if n[:6] == "hopper"}
+        with open(os.path.join(os.environ["LOADED_BY"], job.rule), "a") as log:
+            log.writelines(f"{os.path.relpath(file)}\\n" for file in files - {None})
+
+atexit.register(record)
+"""
+
+
+def _recording(folder: Path) -> dict[str, str]:
+    """Return variables with which jobs note what they load, in files by rule, below a folder."""
+    (folder / "recorder").mkdir(exist_ok=True)
+    (folder / "loaded").mkdir(exist_ok=True)
+    (folder / "recorder/sitecustomize.py").write_text(RECORDER, encoding="utf-8")
+    return {"PYTHONPATH": str(folder / "recorder"), "LOADED_BY": str(folder / "loaded")}
+
+
+@pytest.fixture(scope="session")
+def loaded(built: Workflow) -> dict[str, set[str]]:
+    """The project's modules, as paths, that jobs of each rule really loaded."""
+    folder = built.path.parent / "loaded"
+    return {path.name: set(path.read_text().split()) for path in folder.iterdir()}
 
 
 @pytest.fixture

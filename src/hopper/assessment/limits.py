@@ -5,7 +5,7 @@ from math import pi, tan
 
 import numpy as np
 
-from hopper.assessment.quantity import ROUNDING, Quantity, with_errors
+from hopper.assessment.propagation import ROUNDING, with_errors
 from hopper.brief import brief
 from hopper.domain.borders import tangency_friction
 from hopper.errors import (
@@ -15,6 +15,7 @@ from hopper.errors import (
     NoRadialSolutionError,
 )
 from hopper.problem import Hopper
+from hopper.quantity import Quantity
 from hopper.radial.friction_limit import FrictionLimit, friction_limit
 from hopper.radial.mass_flow import mass_flow_friction_angle
 from hopper.radial.solution import solve_radial

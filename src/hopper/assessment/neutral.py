@@ -5,11 +5,11 @@ from math import pi
 from typing import Literal
 
 from hopper.assessment.limits import coefficient
-from hopper.assessment.quantity import Quantity
 from hopper.assessment.stability import abscissa_with_error
 from hopper.brief import brief
 from hopper.domain.neutral import NoNeutralPointError, neutral_curve, neutral_delta
 from hopper.problem import Geometry, Hopper
+from hopper.quantity import Quantity
 from hopper.radial.solution import solve_radial
 from hopper.stability.modes import linear_stability
 

@@ -6,10 +6,11 @@ import numpy as np
 
 from hopper.arrays import Array
 from hopper.assessment.limits import Limits, assess_limits
-from hopper.assessment.quantity import SHIFT, Quantity, wall_angle_rounding, with_errors
+from hopper.assessment.propagation import SHIFT, wall_angle_rounding, with_errors
 from hopper.brief import brief
 from hopper.errors import ConvergenceError, NoRadialSolutionError, SingularVelocityError
 from hopper.problem import Hopper
+from hopper.quantity import Quantity
 from hopper.radial.collocation import Member
 from hopper.radial.flow_factor import flow_factor
 from hopper.radial.members import members_with_wall_angle

@@ -9,9 +9,10 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from hopper.arrays import Array, Complex
-from hopper.assessment.quantity import ROUNDING, Quantity, propagated
+from hopper.assessment.propagation import ROUNDING, propagated
 from hopper.brief import brief
 from hopper.errors import ConvergenceError
+from hopper.quantity import Quantity
 from hopper.radial.solution import RadialSolution
 from hopper.spectral.transient import ModalBasis, condition_number, propagator_norm
 from hopper.stability.convergence_filter import convergence_filter

@@ -8,7 +8,6 @@ from typing import Literal, get_args
 
 from hopper.assessment.limits import Limits, assess_limits, tangency_coefficient
 from hopper.assessment.neutral import NeutralPoint, assess_neutral, largest_neutral_coefficient
-from hopper.assessment.quantity import Quantity
 from hopper.assessment.radial import RadialAssessment, assess_radial, describe_radial
 from hopper.assessment.stability import StabilityAssessment, Transient, Verdict, assess_stability
 from hopper.brief import brief
@@ -21,6 +20,7 @@ from hopper.errors import (
     TangencyError,
 )
 from hopper.problem import Hopper
+from hopper.quantity import Quantity
 
 __all__ = [
     "OUTCOMES",

@@ -1,4 +1,4 @@
-"""Numbers with errors, and what the error of the radial fields makes of them.
+"""What the error of the radial fields makes of numbers computed from them.
 
 Errors of the fields are propagated to first order: the fields are shifted along a few directions,
 among them the one in which their equations are worst conditioned, and the changes that follow,
@@ -6,28 +6,17 @@ scaled to the error of the fields, are added up.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from hopper.arrays import Array
+from hopper.quantity import Quantity
 from hopper.radial.solution import RadialSolution
 
 ROUNDING = 4 * float(np.finfo(float).eps)
 # Shift of the fields for first-order propagation, relative to their size.
 SHIFT = 1e-8
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """A number and its absolute error, in the same unit."""
-
-    value: float
-    error: float
-
-    def __repr__(self) -> str:
-        """Return both in one short line."""
-        return f"{self.value:.10g} +- {self.error:.0e}"
 
 
 def with_errors(
