@@ -15,9 +15,8 @@ from time import process_time
 import numpy as np
 from scipy.linalg import eigvals
 
+from hopper import Hopper, RadialSolution, solve_radial
 from hopper.domain.stability_map import sweep_friction
-from hopper.problem import Hopper
-from hopper.radial.solution import RadialSolution, solve_radial
 from hopper.spectral.matching import relative_changes
 from hopper.stability.collocation import paper_matrix
 

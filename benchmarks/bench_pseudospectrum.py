@@ -9,11 +9,8 @@ from statistics import median
 import numpy as np
 from numpy.typing import NDArray
 
-from hopper.problem import Hopper
-from hopper.radial.solution import solve_radial
+from hopper import Hopper, SchurForm, schur_form, smallest_singular_values, solve_radial
 from hopper.spectral.chebyshev import clenshaw_curtis_weights
-from hopper.spectral.pseudospectrum import smallest_singular_values
-from hopper.spectral.schur import SchurForm, schur_form
 from hopper.stability.collocation import half_matrix, paper_matrix
 from hopper.stability.transient import half_weights
 

@@ -12,15 +12,15 @@ from time import perf_counter
 import numpy as np
 from scipy.linalg import eigvals
 
+from hopper import Hopper, LinearStability, RadialSolution, linear_stability, solve_radial
 from hopper.arrays import Complex
-from hopper.problem import Geometry, Hopper
-from hopper.radial.solution import RadialSolution, solve_radial
+from hopper.problem import Geometry
 from hopper.spectral import chebyshev
 from hopper.spectral.matching import relative_changes
 from hopper.stability.collocation import paper_matrix
 from hopper.stability.convergence_filter import convergence_filter
 from hopper.stability.mesh_spectrum import mesh_spectrum
-from hopper.stability.modes import LinearStability, linear_stability, upper_eigenvalues
+from hopper.stability.modes import upper_eigenvalues
 
 MESHES = (400, 200)
 TOLERANCE = 1e-3

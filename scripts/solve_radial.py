@@ -11,7 +11,7 @@ from hopper_workflow import artifacts, jobs
 from hopper.radial.velocity import solve_velocity
 from hopper_data.datasets import dataset
 from hopper_data.inputs import solution_of
-from hopper_data.radial import SCALARS, STRESS, VELOCITY
+from hopper_data.radial import FIELD, field
 from hopper_data.tables import in_degrees, number, text, within
 
 
@@ -38,24 +38,10 @@ def _field(
     solution = solution_of(geometry, delta, half_angle, mu, model)
     velocity = solve_velocity(solution)
     logging.info("%s, mu = %g: error %.1e", model, mu, velocity.error_estimate)
-    theta = np.radians(theta_deg)
-    sigma, psi, _, _ = solution.fields(theta)
-    theta_psi_max, psi_max = solution.psi_maximum()
-    return {
-        "sigma": sigma,
-        "psi": psi,
-        "u": velocity.at(theta),
-        "sigma_axis": solution.sigma_axis,
-        "sigma_wall": solution.sigma_wall,
-        "psi_max": psi_max,
-        "theta_psi_max": theta_psi_max,
-        "u_wall": velocity.wall,
-        "error_radial": solution.error_estimate,
-        "error_velocity": velocity.error_estimate,
-    }
+    return field(solution, np.radians(theta_deg), velocity)
 
 
-FIELDS = within("field", (*STRESS, *VELOCITY, *SCALARS))
+FIELDS = within("field", FIELD)
 AXES = (
     text("model", "yield condition", "model"),
     number("mu", "coefficient of wall friction", "mu"),

@@ -24,7 +24,8 @@ EXAMPLES = {
     "stability": "hopper stability --geometry cone --delta 40 --half-angle 20 --mu 0.3",
     "neutral": "hopper neutral --geometry cone --half-angle 10 --phi 10",
 }
-_LIBRARIES: dict[str, list[str]] = {".csv": [], ".nc": ["xarray", "netCDF4"]}
+# The extra of the distribution and its libraries that a file of this suffix needs.
+_LIBRARIES = {".csv": ("", list[str]()), ".nc": ("data", ["xarray", "netCDF4"])}
 _EXIT_CODES = """\
 exit codes:
   0 answered, 1 there is no answer (the reason is on stderr), 2 wrong options or files"""
@@ -191,10 +192,12 @@ def _check(options: argparse.Namespace) -> None:
             checked(path, suffixes, overwrite=options.force)
         except FileError as error:
             raise UsageError(f"argument {option}: {error}") from None
-        for library in _LIBRARIES.get(path.suffix.lower(), ["matplotlib"]):
+        extra, libraries = _LIBRARIES.get(path.suffix.lower(), ("plot", ["matplotlib"]))
+        for library in libraries:
             if find_spec(library) is None:
                 raise UsageError(
-                    f"argument {option}: {path.suffix} needs {library}: install hopper[workflow]"
+                    f"argument {option}: {path.suffix} needs {library}: install "
+                    f"granular-hopper[{extra}]"
                 )
 
 

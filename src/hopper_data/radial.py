@@ -15,7 +15,9 @@ STRESS: Table = (
     number("psi", "Sokolovskii angle", "theta", units="radian"),
 )
 VELOCITY: Table = (number("u", "radial velocity relative to the axis", "theta"),)
-SCALARS: Table = (
+FIELD: Table = (
+    *STRESS,
+    *VELOCITY,
     number("sigma_axis", "average stress on the axis", scale="rho g r"),
     number("sigma_wall", "average stress at the wall", scale="rho g r"),
     number("psi_max", "largest Sokolovskii angle", units="radian"),
@@ -34,11 +36,30 @@ def angles(half_angle: float) -> Array:
     return np.linspace(-half_angle, half_angle, POINTS)
 
 
+def field(
+    solution: RadialSolution, theta: Array, velocity: VelocityField | None = None
+) -> dict[str, Any]:
+    """Return a radial field at ``theta`` (radians), with its numbers, for the table FIELD."""
+    sigma, psi, _, _ = solution.fields(theta)
+    theta_psi_max, psi_max = solution.psi_maximum()
+    return {
+        "sigma": sigma,
+        "psi": psi,
+        "u": velocity.at(theta) if velocity else None,
+        "sigma_axis": solution.sigma_axis,
+        "sigma_wall": solution.sigma_wall,
+        "psi_max": psi_max,
+        "theta_psi_max": theta_psi_max,
+        "u_wall": velocity.wall if velocity else None,
+        "error_radial": solution.error_estimate,
+        "error_velocity": velocity.error_estimate if velocity else None,
+    }
+
+
 def over_theta(result: RadialSolution | VelocityField) -> tuple[dict[str, Any], Table]:
-    """Return the fields of a solution or of its velocity over the hopper, and their table."""
+    """Return a solution or a velocity over [-theta_w, theta_w], and its table."""
     if isinstance(result, VelocityField):
         theta = angles(result.half_angle)
         return {"theta": theta, "u": result.at(theta)}, VELOCITY
     theta = angles(result.hopper.half_angle)
-    sigma, psi, _, _ = result.fields(theta)
-    return {"theta": theta, "sigma": sigma, "psi": psi}, STRESS
+    return {"theta": theta, **field(result, theta)}, FIELD

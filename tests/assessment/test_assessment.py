@@ -10,32 +10,36 @@ from scipy.integrate import quad
 from scipy.linalg import expm
 from scipy.optimize import brentq
 
+from hopper import (
+    Hopper,
+    HopperError,
+    RadialSolution,
+    assess,
+    linear_stability,
+    solve_radial,
+    solve_velocity,
+)
 from hopper.assessment.limits import assess_limits, tangency_coefficient
 from hopper.assessment.neutral import assess_neutral
 from hopper.assessment.radial import assess_radial, describe_radial
 from hopper.assessment.stability import assess_stability
-from hopper.assessment.summary import assess
-from hopper.domain.borders import wall_tangency_friction
-from hopper.errors import (
-    HopperError,
-    InvalidParameterError,
-    NoRadialSolutionError,
-    WallFrictionError,
-)
-from hopper.problem import Hopper
+from hopper.errors import InvalidParameterError, NoRadialSolutionError, WallFrictionError
 from hopper.quantity import Quantity
 from hopper.radial.collocation import Closure, newton
 from hopper.radial.grid import half_grid
-from hopper.radial.solution import RadialSolution, solve_radial
-from hopper.radial.velocity import decay_exponent, solve_velocity
+from hopper.radial.velocity import decay_exponent
 from hopper.spectral.transient import modal_matrix
 from hopper.stability.convergence_filter import convergence_filter
 from hopper.stability.mesh_spectrum import mesh_spectrum
-from hopper.stability.modes import linear_stability
 from hopper.stability.transient import modal_basis
 from hopper.yield_conditions import MOHR_COULOMB, VON_MISES
 from tests.radial import witness
-from tests.stability.witnesses import galerkin_modes, line_by_quadrature, radial
+from tests.stability.witnesses import (
+    galerkin_modes,
+    line_by_quadrature,
+    radial,
+    wall_tangency_friction,
+)
 
 STEEL = Hopper("cone", radians(40), radians(20))
 NUMBERS = ("sigma_axis", "sigma_wall", "psi_max", "theta_psi_max", "u_wall", "flow_factor")

@@ -14,11 +14,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from hopper import __version__
+from hopper import Hopper, __version__
 from hopper.assessment.radial import assess_radial
 from hopper.assessment.stability import assess_stability
 from hopper.errors import ConvergenceError
-from hopper.problem import Hopper
 from hopper_cli import commands, text
 from hopper_cli.main import EXAMPLES, main
 
@@ -418,7 +417,12 @@ def test_a_missing_library_is_named_before_the_work(run, tmp_path, monkeypatch):
     monkeypatch.setattr("hopper_cli.main.find_spec", lambda name: None)
     code, _, err = run(f"radial {STEEL} --plot {tmp_path / 'out.png'}")
     assert code == 2
-    assert is_one_error(err, "argument --plot: .png needs matplotlib: install hopper[workflow]")
+    assert is_one_error(
+        err, "argument --plot: .png needs matplotlib: install granular-hopper[plot]"
+    )
+    code, _, err = run(f"radial {STEEL} --profile {tmp_path / 'out.nc'}")
+    assert code == 2
+    assert is_one_error(err, "argument --profile: .nc needs xarray: install granular-hopper[data]")
 
 
 @pytest.mark.parametrize("option", ["--profile old.csv", "--profile old.nc", "--plot old.png"])

@@ -6,6 +6,15 @@ from math import asin, atan, cos, degrees, inf, nan, pi, radians, sin, tan
 import numpy as np
 import pytest
 
+from hopper import (
+    Hopper,
+    NeutralCurve,
+    friction_limit,
+    linear_stability,
+    neutral_curve,
+    neutral_delta,
+    solve_radial,
+)
 from hopper.domain.borders import (
     borders,
     friction_reaching,
@@ -13,15 +22,10 @@ from hopper.domain.borders import (
     stable_area,
     tangency_curve,
     tangency_friction,
-    wall_tangency_friction,
 )
-from hopper.domain.neutral import NeutralCurve, NoNeutralPointError, neutral_curve, neutral_delta
+from hopper.domain.neutral import NoNeutralPointError
 from hopper.errors import InvalidParameterError, TangencyError
-from hopper.problem import Hopper
-from hopper.radial.friction_limit import friction_limit
-from hopper.radial.solution import solve_radial
-from hopper.stability.modes import linear_stability
-from tests.stability.witnesses import galerkin_modes, line_by_quadrature
+from tests.stability.witnesses import galerkin_modes, line_by_quadrature, wall_tangency_friction
 
 MICRO = radians(1e-6)
 CURVES = [("cone", 10), ("cone", 30), ("wedge", 10), ("wedge", 30)]

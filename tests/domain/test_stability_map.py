@@ -5,6 +5,7 @@ from math import radians
 import numpy as np
 import pytest
 
+from hopper import Hopper, friction_limit, linear_stability, solve_radial
 from hopper.domain.borders import tangency_friction
 from hopper.domain.stability_map import REGIONS, sweep_friction
 from hopper.errors import (
@@ -14,10 +15,6 @@ from hopper.errors import (
     TangencyError,
     WallFrictionError,
 )
-from hopper.problem import Hopper
-from hopper.radial.friction_limit import friction_limit
-from hopper.radial.solution import solve_radial
-from hopper.stability.modes import linear_stability
 
 HOPPERS = [
     ("cone", 35, 10),

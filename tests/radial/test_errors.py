@@ -6,22 +6,22 @@ from math import atan, degrees, inf, nan, pi, radians, tan
 import numpy as np
 import pytest
 
+from hopper import (
+    Hopper,
+    friction_limit,
+    mass_flow_half_angle,
+    solve_radial,
+    solve_radial_family,
+    solve_velocity,
+)
 from hopper.errors import (
     InvalidParameterError,
     NonPositiveStressError,
     NoRadialSolutionError,
     WallFrictionError,
 )
-from hopper.problem import Hopper, as_geometry
-from hopper.radial.friction_limit import friction_limit
-from hopper.radial.mass_flow import (
-    limiting_fields,
-    limiting_wall_angle,
-    mass_flow_friction_angle,
-    mass_flow_half_angle,
-)
-from hopper.radial.solution import solve_radial, solve_radial_family
-from hopper.radial.velocity import solve_velocity
+from hopper.problem import as_geometry
+from hopper.radial.mass_flow import limiting_fields, limiting_wall_angle, mass_flow_friction_angle
 from hopper.yield_conditions import MOHR_COULOMB, VON_MISES
 from tests.radial import witness
 

@@ -7,9 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hopper.problem import Hopper, as_geometry
-from hopper.radial.flow_factor import flow_factor
-from hopper.radial.solution import solve_radial
+from hopper import Hopper, flow_factor, solve_radial
+from hopper.problem import as_geometry
 from tests.radial import witness
 
 CHART = Path(__file__).parents[2] / "resources" / "jenike_chart_delta40.csv"

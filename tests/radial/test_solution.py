@@ -10,18 +10,19 @@ from numpy.polynomial import Chebyshev
 from scipy.integrate import solve_bvp
 from scipy.optimize import brentq, minimize_scalar
 
-from hopper.problem import Hopper, as_geometry
+from hopper import (
+    Hopper,
+    friction_limit,
+    mass_flow_half_angle,
+    radial_solutions,
+    solve_radial,
+    solve_radial_family,
+)
+from hopper.problem import as_geometry
 from hopper.radial.collocation import Closure, crude_start, newton
 from hopper.radial.family import family
-from hopper.radial.friction_limit import friction_limit
 from hopper.radial.grid import half_grid
-from hopper.radial.mass_flow import (
-    limiting_fields,
-    limiting_wall_angle,
-    mass_flow_friction_angle,
-    mass_flow_half_angle,
-)
-from hopper.radial.solution import radial_solutions, solve_radial, solve_radial_family
+from hopper.radial.mass_flow import limiting_fields, limiting_wall_angle, mass_flow_friction_angle
 from hopper.yield_conditions import MOHR_COULOMB, VON_MISES
 from tests.radial import witness
 

@@ -5,15 +5,10 @@ import pytest
 from scipy.linalg import expm
 from scipy.optimize import brentq, linear_sum_assignment, minimize_scalar
 
+from hopper import pseudospectrum, schur_form, smallest_singular_values
 from hopper.errors import InvalidParameterError
 from hopper.spectral import chebyshev
-from hopper.spectral.pseudospectrum import (
-    eigenvalue_condition_numbers,
-    kreiss_lower_bound,
-    pseudospectrum,
-    smallest_singular_values,
-)
-from hopper.spectral.schur import schur_form
+from hopper.spectral.pseudospectrum import eigenvalue_condition_numbers, kreiss_lower_bound
 from tests.spectral.matrices import (
     RANDOM,
     complex_normal,

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.linalg import block_diag, eig, expm
 
+from hopper import schur_form
 from hopper.errors import InvalidParameterError
-from hopper.spectral.schur import schur_form
 from hopper.spectral.sensitivity import (
     kept_condition_numbers,
     kept_form,

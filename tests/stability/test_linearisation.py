@@ -5,9 +5,8 @@ from math import inf, nan, radians
 import numpy as np
 import pytest
 
+from hopper import Hopper, solve_radial
 from hopper.errors import InvalidParameterError
-from hopper.problem import Hopper
-from hopper.radial.solution import solve_radial
 from hopper.spectral import chebyshev
 from hopper.stability.linearisation import coefficients, coefficients_on_half_grid
 from hopper.yield_conditions import VON_MISES

@@ -7,21 +7,20 @@ from math import atan, cos, pi, radians, sin
 import numpy as np
 import pytest
 
+from hopper import Hopper, linear_stability, solve_radial
 from hopper.errors import (
     ConvergenceError,
     InvalidParameterError,
     NoRadialSolutionError,
     TangencyError,
 )
-from hopper.problem import Hopper
 from hopper.radial.collocation import Closure, newton
 from hopper.radial.grid import half_grid
-from hopper.radial.solution import solve_radial
 from hopper.stability import smooth_wall
 from hopper.stability.asymptotic_line import asymptotic_line
 from hopper.stability.convergence_filter import convergence_filter
 from hopper.stability.mesh_spectrum import mesh_spectrum
-from hopper.stability.modes import linear_stability, low_modes, upper_eigenvalues
+from hopper.stability.modes import low_modes, upper_eigenvalues
 from hopper.yield_conditions import VON_MISES
 from tests.stability.witnesses import (
     galerkin_modes,

@@ -6,11 +6,9 @@ import numpy as np
 import pytest
 from scipy.linalg import eigvals
 
+from hopper import Hopper, linear_stability, solve_radial
 from hopper.errors import ConvergenceError, InvalidParameterError, TangencyError
-from hopper.problem import Hopper
-from hopper.radial.solution import solve_radial
 from hopper.stability.collocation import half_matrix, paper_matrix
-from hopper.stability.modes import linear_stability
 from hopper.stability.paper_abscissa import paper_abscissa
 from tests.stability.witnesses import radial
 

@@ -5,7 +5,7 @@ equations of motion by computer algebra, low modes from a Legendre-Galerkin meth
 """
 
 from functools import lru_cache
-from math import atan, cos, pi, radians
+from math import atan, cos, pi, radians, sin
 
 import numpy as np
 import sympy as sp  # type: ignore[import-untyped]
@@ -14,8 +14,8 @@ from scipy.integrate import quad, solve_ivp
 from scipy.linalg import eigvals
 from scipy.optimize import linear_sum_assignment
 
-from hopper.problem import Geometry, Hopper
-from hopper.radial.solution import RadialSolution, solve_radial
+from hopper import Hopper, RadialSolution, solve_radial
+from hopper.problem import Geometry
 
 
 @lru_cache(maxsize=64)
@@ -181,3 +181,8 @@ def line_by_quadrature(solution: RadialSolution):
 
     time = integral("time")
     return integral("growth") / time, 2 * pi / abs(time)
+
+
+def wall_tangency_friction(delta: float) -> float:
+    """Return the friction angle (radians) of the wall on which psi_w = pi/4 - delta/2."""
+    return atan(sin(delta) * cos(delta) / (1 + sin(delta) ** 2))

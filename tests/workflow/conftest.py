@@ -66,7 +66,7 @@ class Workflow:
 
     def publish(self, what: str) -> subprocess.CompletedProcess[str]:
         """Write the report or the crate."""
-        command = [sys.executable, "-m", f"publish.{what}"]
+        command = [sys.executable, "-m", f"hopper_workflow.publish.{what}"]
         environment = {**os.environ, "PYTHONPATH": str(self.path / "scripts")}
         return subprocess.run(
             command, cwd=self.path, env=environment, capture_output=True, text=True, check=False

@@ -9,8 +9,8 @@ import pytest
 import yaml
 
 from hopper_workflow import artifacts, configuration
-from hopper.assessment.summary import OUTCOMES, assess
-from hopper.problem import Hopper
+from hopper import Hopper, assess
+from hopper.assessment.summary import OUTCOMES
 from tests.workflow.conftest import ROOT
 
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"

@@ -34,11 +34,11 @@ def write_sbom(path: Path, directory: Path) -> None:
         for package in locks.read(directory / lock):
             users[package].add(use)
     components = [_component(package, users[package]) for package in users]
-    root = Component(name="hopper", version=hopper.__version__, type=ComponentType.APPLICATION)
-    root.bom_ref.value = "hopper"
+    name, wanted = _direct(directory / "pyproject.toml")
+    root = Component(name=name, version=hopper.__version__, type=ComponentType.APPLICATION)
+    root.bom_ref.value = name
     bom = Bom(components=components)
     bom.metadata.component = root
-    wanted = _direct(directory / "pyproject.toml")
     bom.register_dependency(root, [part for part in components if part.name in wanted])
     content = json.loads(JsonV1Dot6(bom).output_as_string())
     # What differs from one writing to the next.
@@ -48,11 +48,12 @@ def write_sbom(path: Path, directory: Path) -> None:
         temporary.write_text(json.dumps(content, indent=2, sort_keys=True) + "\n", encoding="utf-8")
 
 
-def _direct(project: Path) -> set[str]:
-    """Return the normalised names of what runs need, without what that needs in turn."""
+def _direct(project: Path) -> tuple[str, set[str]]:
+    """Return a project's name and those of what runs need, without what that needs in turn."""
     content = tomllib.loads(project.read_text(encoding="utf-8"))["project"]
     wanted = content["dependencies"] + content["optional-dependencies"]["workflow"]
-    return {re.split(r"[^\w.-]", one)[0].lower().replace("_", "-") for one in wanted}
+    names = {re.split(r"[^\w.-]", one)[0].lower().replace("_", "-") for one in wanted}
+    return content["name"], names
 
 
 def _component(package: locks.Package, uses: set[str]) -> Component:

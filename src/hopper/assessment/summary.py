@@ -6,10 +6,9 @@ Every number carries an absolute error.
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from hopper.assessment.limits import Limits, assess_limits, tangency_coefficient
-from hopper.assessment.neutral import NeutralPoint, assess_neutral, largest_neutral_coefficient
-from hopper.assessment.radial import RadialAssessment, assess_radial, describe_radial
-from hopper.assessment.stability import StabilityAssessment, Transient, Verdict, assess_stability
+from hopper.assessment.limits import Limits, assess_limits
+from hopper.assessment.radial import RadialAssessment, assess_radial
+from hopper.assessment.stability import StabilityAssessment, Verdict, assess_stability
 from hopper.brief import brief
 from hopper.errors import (
     ConvergenceError,
@@ -20,28 +19,6 @@ from hopper.errors import (
     TangencyError,
 )
 from hopper.problem import Hopper
-from hopper.quantity import Quantity
-
-__all__ = [
-    "OUTCOMES",
-    "Assessment",
-    "Limits",
-    "NeutralPoint",
-    "Outcome",
-    "Quantity",
-    "RadialAssessment",
-    "StabilityAssessment",
-    "Transient",
-    "Verdict",
-    "assess",
-    "assess_limits",
-    "assess_neutral",
-    "assess_radial",
-    "assess_stability",
-    "describe_radial",
-    "largest_neutral_coefficient",
-    "tangency_coefficient",
-]
 
 Outcome = Literal[
     Verdict,

@@ -6,7 +6,7 @@ ends where psi reaches pi/4 - delta/2 and a characteristic becomes tangent to th
 """
 
 from dataclasses import dataclass
-from math import atan, cos, pi, sin
+from math import pi
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -173,8 +173,3 @@ def borders(geometry: Geometry, half_angle: float, deltas: ArrayLike) -> Borders
             *(np.nan if phi is None else phi for phi in levels),
         )
     return Borders(delta, table[0], table[1], tuple(ends), table[2], table[3])
-
-
-def wall_tangency_friction(delta: float) -> float:
-    """Return the friction angle (radians) of the wall on which psi_w = pi/4 - delta/2."""
-    return atan(sin(delta) * cos(delta) / (1 + sin(delta) ** 2))
