@@ -62,20 +62,31 @@ MODULES = {
 
 
 def test_editing_a_module_reruns_the_rules_whose_scripts_load_it(rebuilt: Workflow, loaded):
-    """All modules are edited at once: a dry run names the changed inputs of each job by itself."""
+    """All modules are edited at once: a dry run names each job's inputs and which are changed.
+
+    Of a job that reruns because of another one it names the inputs only.
+    """
     for module in MODULES:
         path = rebuilt.path / module
         path.write_text(path.read_text(encoding="utf-8") + "\n# edited\n", encoding="utf-8")
-    changed: dict[str, set[str]] = {}
+    inputs: dict[str, set[str]] = {}
     for block in re.split(r"\n(?=(?:local)?rule )", rebuilt.snakemake("-n").stdout):
-        reason = re.search(r"reason: Updated input files: ([^;\n]*)", block)
-        if reason:
-            rule = block.removeprefix("rule ").partition(":")[0]
-            files = set(reason[1].split(", ")) & MODULES
-            assert changed.setdefault(rule, files) == files, f"jobs of {rule} differ"
-    assert set(changed) == set(loaded)
-    for rule, files in changed.items():
+        if listed := re.match(r"rule (\w+):.*\n    input: (.*)\n", block):
+            rule, files = listed[1], set(listed[2].split(", ")) & MODULES
+            assert inputs.setdefault(rule, files) == files, f"jobs of {rule} differ"
+            if changed := re.search(r"reason: Updated input files: ([^;\n]*)", block):
+                assert set(changed[1].split(", ")) & MODULES == files, rule
+    del inputs["all"]
+    assert set(inputs) == set(loaded)
+    for rule, files in inputs.items():
         assert files == loaded[rule], rule
+
+
+def test_editing_what_only_plots_load_draws_all_figures_anew(rebuilt):
+    rebuilt.edit(
+        "scripts/hopper_workflow/plotting.py", "PAGE_WIDTH = 3.5, 7.1", "PAGE_WIDTH = 3.5, 7.2"
+    )
+    assert {job.split("/")[0] for job in rebuilt.reruns()} == PLOTS
 
 
 def test_reverting_a_module_reruns_nothing(rebuilt: Workflow):

@@ -9,7 +9,7 @@ import sys
 from snakemake.exceptions import WorkflowError
 
 # The host of a module keeps its sys.path.
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.append(str(ROOT / "scripts"))
 from hopper_workflow import code_graph, configuration, requests
 from hopper_workflow.claims.words import paths_of, read_claims
 
