@@ -17,11 +17,12 @@ sys.path.remove(str(ROOT / "scripts"))
 
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
 
+# Snakemake puts the interpreter into shell commands as it is: a path with a space breaks them.
+if Path(sys.executable).exists():
+    sys.executable = shlex.quote(sys.executable)
+
 # In a module the configuration is somebody else's, of which we know only our part.
 if not workflow.modifier.skip_configfile:
-    # Snakemake puts the interpreter into shell commands as it is: a path with a space breaks them.
-    if Path(sys.executable).exists():
-        sys.executable = shlex.quote(sys.executable)
     try:
         for path in [Path("config.yaml"), *workflow.overwrite_configfiles]:
             if path.exists():
