@@ -5,7 +5,7 @@ from pathlib import Path
 from hopper_workflow.artifacts import replacing
 from hopper_workflow.publish import run
 
-STYLESHEET = Path(__file__).parents[2] / "workflow/report/report.css"
+STYLESHEET = Path(__file__).parents[3] / "workflow/report/report.css"
 
 
 def write_report(path: Path) -> None:
