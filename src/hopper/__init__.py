@@ -10,7 +10,7 @@ Radial fields
     solve_radial, radial_solutions, solve_radial_family, solve_velocity, flow_factor,
     friction_limit, mass_flow_half_angle, RadialSolution, VelocityField, FrictionLimit
 Linear stability
-    linear_stability, LinearStability, neutral_delta, neutral_curve, NeutralCurve
+    linear_stability, LinearStability, neutral_delta, stable_deltas, neutral_curve, NeutralCurve
 What is known about one hopper, with errors
     assess, Assessment
 Any dense matrix
@@ -22,9 +22,10 @@ TYPE_CHECKING = False  # as typing has it, whose import takes longer than all of
 if TYPE_CHECKING:
     from hopper.assessment.summary import Assessment as Assessment
     from hopper.assessment.summary import assess as assess
-    from hopper.domain.neutral import NeutralCurve as NeutralCurve
-    from hopper.domain.neutral import neutral_curve as neutral_curve
-    from hopper.domain.neutral import neutral_delta as neutral_delta
+    from hopper.domain.neutral_curve import NeutralCurve as NeutralCurve
+    from hopper.domain.neutral_curve import neutral_curve as neutral_curve
+    from hopper.domain.neutral_points import neutral_delta as neutral_delta
+    from hopper.domain.neutral_points import stable_deltas as stable_deltas
     from hopper.errors import HopperError as HopperError
     from hopper.problem import Hopper as Hopper
     from hopper.radial.flow_factor import flow_factor as flow_factor
@@ -54,7 +55,8 @@ __version__ = "0.1.0"
 # The same for the interpreter, which imports a room when one of its names is first asked for.
 _HOMES = {
     "assessment.summary": ("Assessment", "assess"),
-    "domain.neutral": ("NeutralCurve", "neutral_curve", "neutral_delta"),
+    "domain.neutral_curve": ("NeutralCurve", "neutral_curve"),
+    "domain.neutral_points": ("neutral_delta", "stable_deltas"),
     "errors": ("HopperError",),
     "problem": ("Hopper",),
     "radial.flow_factor": ("flow_factor",),

@@ -16,13 +16,11 @@ from hopper.errors import (
     InvalidParameterError,
     NonPositiveStressError,
     NoRadialSolutionError,
-    TangencyError,
 )
 from hopper.problem import Hopper
 
 Outcome = Literal[
     Verdict,
-    "tangent_characteristic",
     "no_radial_solution",
     "non_positive_stress",
     "not_converged",
@@ -71,7 +69,7 @@ def assess(hopper: Hopper, friction_angle: float) -> Assessment:
         return Assessment(assess_limits(hopper), None, None, _OUTCOMES[type(error)], str(error))
     try:
         found = assess_stability(radial.solution)
-    except (TangencyError, ConvergenceError, InvalidParameterError) as error:
+    except (ConvergenceError, InvalidParameterError) as error:
         return Assessment(radial.limits, radial, None, _OUTCOMES[type(error)], str(error))
     return Assessment(radial.limits, radial, found, found.verdict, "")
 
@@ -80,7 +78,6 @@ _OUTCOMES: dict[type[HopperError], Outcome] = {
     NoRadialSolutionError: "no_radial_solution",
     NonPositiveStressError: "non_positive_stress",
     ConvergenceError: "not_converged",
-    TangencyError: "tangent_characteristic",
     # The only one that stability knows is a material it has no equations for.
     InvalidParameterError: "not_formulated",
 }

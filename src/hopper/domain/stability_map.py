@@ -7,25 +7,28 @@ from numpy.typing import ArrayLike, NDArray
 
 from hopper.arrays import Array
 from hopper.brief import brief
-from hopper.errors import ConvergenceError, InvalidParameterError, TangencyError
+from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.problem import Hopper, require_angle
 from hopper.radial.collocation import Member
 from hopper.radial.family import family_from
 from hopper.radial.friction_limit import friction_limit_from
 from hopper.radial.members import physical_member
 from hopper.radial.solution import solution_of
-from hopper.stability.modes import LinearStability, linear_stability
+from hopper.stability.collocation import PARITIES
+from hopper.stability.modes import GOVERNORS, Disturbances, LinearStability, linear_stability
 
 REGIONS = (
     "stable",
+    "stable_symmetric_only",
     "unstable",
-    "tangent_characteristic",
     "no_radial_solution",
     "no_wall_angle",
     "non_positive_stress",
     "not_converged",
 )
-_TANGENT, _NO_SOLUTION, _NO_WALL, _NON_POSITIVE, _NOT_CONVERGED = range(2, 7)
+_STABLE, _SYMMETRIC, _UNSTABLE, _NO_SOLUTION, _NO_WALL, _NON_POSITIVE, _NOT_CONVERGED = range(7)
+# Relative errors of the governing mode, and of the others, which must only be seen to lie below.
+_TOLERANCE, _OTHERS = 1e-9, 1e-5
 
 
 @dataclass(frozen=True)
@@ -38,26 +41,37 @@ class Sweep:
         phi, radians.
     region : integer array, shape (n,)
         Index into ``REGIONS``.
-    abscissa, line, highest_mode, error_estimate : arrays, shape (n,)
-        Supremum of Re(lambda), abscissa of the asymptotic line, largest real part of a low mode,
-        error of the abscissa.
+    abscissa, error_estimate : arrays, shape (n,)
+        Supremum of Re(lambda) over the disturbances looked at, and its error.
+    symmetric, asymmetric : arrays, shape (n,)
+        The same for each parity; the second is NaN where it was not looked at.
+    line : array, shape (n,)
+        Abscissa of the asymptotic line.
+    governed_by, parity : integer arrays, shape (n,)
+        Index into ``GOVERNORS`` of :mod:`hopper.stability.modes`, and into ``PARITIES`` of
+        :mod:`hopper.stability.collocation`; -1 without a verdict, and where the line governs.
     """
 
     friction_angle: Array
     region: NDArray[np.int8]
     abscissa: Array
-    line: Array
-    highest_mode: Array
     error_estimate: Array
+    symmetric: Array
+    asymmetric: Array
+    line: Array
+    governed_by: NDArray[np.int8]
+    parity: NDArray[np.int8]
 
     __repr__ = brief("friction_angle deg", "abscissa", "error_estimate")
 
 
-def sweep_friction(hopper: Hopper, friction_angles: ArrayLike) -> Sweep:
+def sweep_friction(
+    hopper: Hopper, friction_angles: ArrayLike, disturbances: Disturbances | None = None
+) -> Sweep:
     """Evaluate a hopper at increasing wall friction angles (radians).
 
-    Neighbours start each other's iteration. Beyond the tangency only the existence of a radial
-    solution is decided, by the limit of its branch.
+    Neighbours start each other's iteration. ``disturbances`` as in
+    :func:`hopper.stability.modes.linear_stability`.
 
     Raises
     ------
@@ -71,29 +85,27 @@ def sweep_friction(hopper: Hopper, friction_angles: ArrayLike) -> Sweep:
         require_angle("friction_angle", angle, zero_allowed=True)
     region = np.full(angles.size, _NO_SOLUTION, dtype=np.int8)
     region[angles > hopper.material.largest_friction_angle(hopper.delta)] = _NO_WALL
-    values = np.full((4, angles.size), np.nan)
+    values = np.full((5, angles.size), np.nan)
+    codes = np.full((2, angles.size), -1, dtype=np.int8)
     last: Member | None = None
     for i in np.flatnonzero(region == _NO_SOLUTION):
-        rest = (np.arange(angles.size) >= i) & (region == _NO_SOLUTION)
         try:
             member = physical_member(hopper, float(angles[i]), last)
             if member is None:
+                rest = (np.arange(angles.size) >= i) & (region == _NO_SOLUTION)
                 region[rest & (angles <= _limit(last, angles[-1]))] = _NOT_CONVERGED
                 break
             last = member
             if member.tau <= 0:
                 region[i] = _NON_POSITIVE
                 continue
-            result = linear_stability(solution_of(member))
+            solution = solution_of(member)
+            result = linear_stability(solution, disturbances, tolerance=_TOLERANCE, others=_OTHERS)
         except ConvergenceError:
             region[i] = _NOT_CONVERGED
-        except TangencyError:
-            region[rest & (angles <= _limit(last, angles[-1]))] = _TANGENT
-            break
         else:
-            region[i] = 0 if result.stable else 1
-            values[:, i] = _numbers(result)
-    return Sweep(angles, region, *values)
+            region[i], values[:, i], codes[:, i] = _row(result)
+    return Sweep(angles, region, *values, *codes)
 
 
 def _limit(member: Member | None, highest: float) -> float:
@@ -116,6 +128,16 @@ def _limit(member: Member | None, highest: float) -> float:
         return solution_of(member).friction_angle
 
 
-def _numbers(result: LinearStability) -> tuple[float, float, float, float]:
-    highest = float(result.eigenvalues.real.max())
-    return result.abscissa, result.line.abscissa, highest, result.error_estimate
+def _row(result: LinearStability) -> tuple[int, tuple[float, ...], tuple[int, int]]:
+    """Return the region, the numbers and the codes of a verdict."""
+    asymmetric = result.asymmetric
+    numbers = (
+        result.abscissa,
+        result.error_estimate,
+        result.symmetric[0],
+        np.nan if asymmetric is None else asymmetric[0],
+        result.line.abscissa,
+    )
+    region = _STABLE if result.stable else _SYMMETRIC if numbers[2] < 0 else _UNSTABLE
+    parity = -1 if result.parity is None else PARITIES.index(result.parity)
+    return region, numbers, (GOVERNORS.index(result.governed_by), parity)

@@ -25,8 +25,7 @@ from hopper.brief import brief
 from hopper.errors import ConvergenceError
 from hopper.problem import Hopper
 from hopper.radial.equations import normal_weight, residual_and_jacobian
-from hopper.radial.grid import Grid, half_grid
-from hopper.spectral import chebyshev
+from hopper.radial.grid import Grid, half_grid, layer_clustering, transfer
 
 # Half-grid sizes; a solution on one is confirmed on the next.
 _SIZES = (12, 16, 24, 36, 54, 80, 120, 180)
@@ -98,13 +97,7 @@ class Member:
         """Return ``u`` interpolated to another grid, stretched where the half angles differ."""
         if grid is self.grid:
             return self.u
-        if grid.clustering == self.grid.clustering:
-            even = chebyshev.half_transfer_matrix(self.grid.size, grid.size, "even")
-            odd = chebyshev.half_transfer_matrix(self.grid.size, grid.size, "odd")
-        else:
-            theta = grid.theta * (self.grid.half_angle / grid.half_angle)
-            even = self.grid.interpolation(theta, "even")
-            odd = self.grid.interpolation(theta, "odd")
+        even, odd = transfer(self.grid, grid, "even"), transfer(self.grid, grid, "odd")
         return np.concatenate([even @ self.log_ratio, odd @ self.psi, self.u[-1:]])
 
 
@@ -212,13 +205,27 @@ def refine(member: Member) -> Member:
     )
 
 
+def fitted(member: Member, last_step: float = 1e-7) -> Member:
+    """Move a member to the grid of its size that resolves its apex layer.
+
+    ``last_step`` as in :func:`newton`; where that fails the member stays as it is.
+    """
+    hopper = member.hopper
+    clustering = layer_clustering(hopper, member.tau)
+    grid = half_grid(member.grid.size, hopper.half_angle, clustering)
+    if grid is member.grid:
+        return member
+    return newton(hopper, grid, member.closure, member.on(grid), last_step) or member
+
+
 def solve(hopper: Hopper, closure: Closure, start: Member | None = None) -> Member | None:
     """Solve from ``start`` (default: a crude guess) on a coarse grid and refine.
 
     Returns None where that does not converge.
     """
     for size in _coarse_sizes(start):
-        grid = half_grid(size, hopper.half_angle)
+        clustering = 0.0 if start is None else start.grid.clustering
+        grid = half_grid(size, hopper.half_angle, clustering)
         if start is None:
             u = crude_start(hopper, grid, closure.value)
         else:
@@ -226,7 +233,7 @@ def solve(hopper: Hopper, closure: Closure, start: Member | None = None) -> Memb
         member = newton(hopper, grid, closure, u)
         if member is not None:
             try:
-                return refine(member)
+                return refine(fitted(member))
             except ConvergenceError:
                 # Too few points can have solutions of their own.
                 continue

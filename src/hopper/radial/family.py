@@ -14,10 +14,10 @@ from scipy.optimize import brentq
 
 from hopper.errors import NoRadialSolutionError
 from hopper.problem import Hopper
-from hopper.radial.collocation import Closure, Member, crude_start, newton, refine
+from hopper.radial.collocation import Closure, Member, crude_start, fitted, newton, refine
 from hopper.radial.grid import half_grid
 
-_SIZE = 36
+SIZE = 36
 _FIRST_STEP = 0.05
 _LARGEST_STEP = 0.2
 _SMALLEST_STEP = 1e-3
@@ -45,14 +45,14 @@ def smooth_wall_member(hopper: Hopper) -> Member:
     narrowest = min(angle, radians(1))
     while member is None and angle >= narrowest:
         narrow = Hopper(hopper.geometry, hopper.delta, angle, hopper.material)
-        grid = half_grid(_SIZE, angle)
+        grid = half_grid(SIZE, angle)
         member = newton(narrow, grid, smooth, crude_start(narrow, grid, 0.0))
         angle /= 2
     step = 0.1
     while member is not None and member.hopper.half_angle < hopper.half_angle:
         angle = min(hopper.half_angle, member.hopper.half_angle + step)
         wider = Hopper(hopper.geometry, hopper.delta, angle, hopper.material)
-        following = newton(wider, half_grid(_SIZE, angle), smooth, member.u)
+        following = newton(wider, half_grid(SIZE, angle), smooth, member.u)
         if following is None:
             step /= 2
             if step < 1e-3:
@@ -84,7 +84,7 @@ def family_from(member: Member) -> Iterator[Member]:
 
     The parameter is psi_w where psi_w changes fast, tau where tau does.
     """
-    member, step = _regrid(member), _FIRST_STEP
+    member, step = fitted(member, _WALK_STEP), _FIRST_STEP
     heading = np.array([0.0, 1.0])
     yield member
     for _ in range(_LONGEST_WALK):
@@ -102,7 +102,7 @@ def family_from(member: Member) -> Iterator[Member]:
             step /= 2
             continue
         heading = direction
-        member, step = _regrid(following), min(1.5 * step, _LARGEST_STEP)
+        member, step = fitted(following, _WALK_STEP), min(1.5 * step, _LARGEST_STEP)
         yield member
 
 
@@ -114,16 +114,6 @@ def _ended(member: Member) -> bool:
         or member.psi[:-1].max() > max(singular - INTERIOR_MARGIN, member.psi_wall)
         or member.tau * hopper.half_angle > FREE_AXIS
     )
-
-
-def _regrid(member: Member) -> Member:
-    """Move a member to the grid that resolves its apex layer, of width 1 / tau."""
-    half_angle = member.hopper.half_angle
-    layer = 1.15 * float(np.arcsinh(member.tau * half_angle / 4))
-    grid = half_grid(_SIZE, half_angle, 0.5 * round(2 * max(0.0, layer)))
-    if grid is member.grid:
-        return member
-    return newton(member.hopper, grid, member.closure, member.on(grid), _WALK_STEP) or member
 
 
 def past_fold(member: Member) -> bool:

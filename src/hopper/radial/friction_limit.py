@@ -4,27 +4,36 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import takewhile
-from math import degrees
+from math import degrees, exp, log
 from typing import Literal
+
+import numpy as np
 
 from hopper.brief import brief
 from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.problem import Hopper
-from hopper.radial.collocation import Member
+from hopper.radial.collocation import Closure, Member, newton
 from hopper.radial.critical_point import limiting_solution
 from hopper.radial.family import (
     FREE_AXIS,
     INTERIOR_MARGIN,
+    SIZE,
     WALL_MARGIN,
     family,
     family_from,
     locate_fold,
+    neighbour,
     past_fold,
     smooth_wall_member,
 )
+from hopper.radial.grid import half_grid
 from hopper.radial.mass_flow import limiting_wall_angle
 
 End = Literal["fold", "wall", "interior", "axis"]
+# Secant in log(tau) for the fold: first step, and the step at which it ends; rounding of the slope
+# leaves 1e-8.
+_FOLD_PROBE, _FOLD_TOLERANCE, _FOLD_STEPS = 1e-3, 1e-6, 20
+_LAST_STEP = 1e-10
 # Half angles, relative to the hopper's, from which its end is approached.
 _NARROWINGS = (0.5, 0.35, 0.25, 0.15, 0.1, 0.05)
 
@@ -94,6 +103,30 @@ def friction_limit_from(member: Member) -> FrictionLimit:
             phi = law.friction_angle(hopper.delta, wall)
             return FrictionLimit(phi, "axis", last.tau, wall, abs(phi - reached))
     return _singular_end(last)
+
+
+def fold_near(hopper: Hopper, start: Member) -> Member | None:
+    """Return the resolved member at the fold, from a member close to it, None if that fails.
+
+    ``start`` may be of a hopper close to this one.
+    """
+    grid = half_grid(SIZE, hopper.half_angle, start.grid.clustering)
+    u, log_tau = start.on(grid), log(start.tau)
+    before, at_before, curvature = log_tau + _FOLD_PROBE, np.nan, np.nan
+    for _ in range(_FOLD_STEPS):
+        # The tangent is that of the last iterate but one.
+        member = newton(hopper, grid, Closure("tau", exp(log_tau)), u, _LAST_STEP)
+        if member is None:
+            return None
+        u, slope = member.u, member.psi_wall_by_tau * member.tau
+        if abs(log_tau - before) > _FOLD_PROBE / 2:  # closer, their difference is rounding
+            curvature = (slope - at_before) / (log_tau - before)
+            before, at_before = log_tau, slope
+        step = -slope / curvature if curvature < 0 else _FOLD_PROBE
+        log_tau += float(np.clip(step, -0.5, 0.5))
+        if abs(step) < _FOLD_TOLERANCE:
+            return neighbour(member, Closure("tau", exp(log_tau)))
+    return None
 
 
 def _singular_end(member: Member) -> FrictionLimit:

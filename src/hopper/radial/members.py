@@ -115,7 +115,7 @@ def physical_member(
     """Return the member of the physical branch, None beyond its end; tau may be negative.
 
     As :func:`solve_radial`, for sweeps that need no reason where there is no solution. ``start``
-    is a member of the same hopper.
+    is a member of this hopper or of one close to it.
 
     Raises
     ------
@@ -130,7 +130,8 @@ def physical_member(
         member = solve(hopper, closure, guess)
         if member is not None and member.psi_wall_by_tau > 0:
             return member
-    before = start and start.psi_wall_by_tau > 0 and start.psi_wall < psi_wall
+    before = start and start.hopper == hopper
+    before = before and start.psi_wall_by_tau > 0 and start.psi_wall < psi_wall
     try:
         found = members_with_wall_angle(hopper, psi_wall, start if before else None)
     except NoRadialSolutionError:

@@ -145,6 +145,13 @@ class RadialSolution:
             return float(angle), float(self.psi_at(angle)[0])
         return float(theta[peak]), float(self.psi_at(theta[peak])[0])
 
+    def first_angle_with(self, psi: float) -> float | None:
+        """Return the least theta (radians) at which psi has the given value, None if nowhere."""
+        theta, largest = self.psi_maximum()
+        if largest < psi:
+            return None
+        return float(brentq(lambda angle: float(self.psi_at(angle)[0]) - psi, 0.0, theta))
+
     def _inside(self, theta: ArrayLike) -> Array:
         theta = as_angles("theta", theta)
         if not np.all(np.abs(theta) <= self.hopper.half_angle * (1 + 1e-12)):

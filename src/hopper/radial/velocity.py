@@ -5,7 +5,6 @@ from math import degrees, pi, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq
 
 from hopper.arrays import Array
 from hopper.brief import brief
@@ -70,9 +69,8 @@ def solve_velocity(solution: RadialSolution) -> VelocityField:
     ConvergenceError
         If log u is not resolved to 1e-6.
     """
-    angle, largest = solution.psi_maximum()
-    if largest >= pi / 4:
-        theta = brentq(lambda t: float(solution.psi_at(t)[0]) - pi / 4, 0.0, angle)
+    theta = solution.first_angle_with(pi / 4)
+    if theta is not None:
         raise SingularVelocityError(
             f"velocity is singular: psi reaches pi/4 at theta = {degrees(theta):.6g} deg; "
             "lower the wall friction to get a velocity field",

@@ -1,8 +1,9 @@
 """Chebyshev collocation on [-1, 1]: nodes, differentiation, quadrature, interpolation, parity.
 
 All grids are second-kind (Gauss-Lobatto) points in increasing order. A *half grid* of ``m``
-points is the positive half of the ``2 m`` points: it carries a function of known parity and has
-no node at 0. Arrays returned by cached functions are read-only.
+points is the positive half of ``2 m`` points: it carries a function of known parity and has no node
+at 0. A *centred* one is the half of ``2 m - 1`` points with the node at 0. Arrays returned by
+cached functions are read-only.
 
 References
 ----------
@@ -97,35 +98,35 @@ def coefficients(values: Array) -> Array:
 
 
 @lru_cache(maxsize=64)
-def half_nodes(m: int) -> Array:
-    """Return the ``m`` positive points of the grid of ``2 m`` points, shape (m,), last one 1."""
-    return _frozen(nodes(2 * m)[m:].copy())
+def half_nodes(m: int, *, centred: bool = False) -> Array:
+    """Return the ``m`` points of a half grid, shape (m,): up to 1, from 0 if centred."""
+    return _frozen(nodes(2 * m - centred)[-m:].copy())
 
 
-def _fold(matrix: Array, m: int, parity: Parity) -> Array:
-    """Restrict columns of a matrix on ``2 m`` values to the half grid of the given parity."""
+def _fold(matrix: Array, m: int, parity: Parity, centred: bool) -> Array:
+    """Restrict columns of a matrix on all values to the half grid of the given parity."""
     mirrored = matrix[:, m - 1 :: -1]
-    return matrix[:, m:] + mirrored if parity == "even" else matrix[:, m:] - mirrored
+    folded = matrix[:, -m:] + mirrored if parity == "even" else matrix[:, -m:] - mirrored
+    if centred:  # the point 0 mirrors itself
+        folded[:, 0] /= 2
+    return folded
 
 
-@lru_cache(maxsize=64)
-def half_differentiation_matrix(m: int, parity: Parity) -> Array:
+@lru_cache(maxsize=128)
+def half_differentiation_matrix(m: int, parity: Parity, *, centred: bool = False) -> Array:
     """Return the (m, m) derivative on the half grid of functions of the given parity.
 
     The derivative has the other parity.
     """
-    return _frozen(_fold(differentiation_matrix(2 * m)[m:], m, parity))
+    matrix = differentiation_matrix(2 * m - centred)[-m:]
+    return _frozen(_fold(matrix, m, parity, centred))
 
 
-def half_interpolation_matrix(m: int, x: ArrayLike, parity: Parity) -> Array:
+def half_interpolation_matrix(
+    m: int, x: ArrayLike, parity: Parity, *, centred: bool = False
+) -> Array:
     """Return the matrix, shape (len(x), m), from half-grid values to values at ``x``."""
-    return _fold(interpolation_matrix(2 * m, x), m, parity)
-
-
-@lru_cache(maxsize=256)
-def half_transfer_matrix(old: int, new: int, parity: Parity) -> Array:
-    """Return the matrix, shape (new, old), from one half grid to another."""
-    return _frozen(half_interpolation_matrix(old, half_nodes(new), parity))
+    return _fold(interpolation_matrix(2 * m - centred, x), m, parity, centred)
 
 
 def half_coefficients(values: Array, parity: Parity) -> Array:

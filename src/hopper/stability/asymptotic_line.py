@@ -1,8 +1,12 @@
 """The vertical line that eigenvalues of large modulus approach, by quadrature.
 
-To leading WKB order a wave that runs along both characteristics c = (-sin 2psi -+ cos delta) / q
-between the axis and the wall grows at the mean rate Lambda, the limit of Re(lambda) for
-|Im(lambda)| -> infinity; modes of one parity are spaced evenly in Im(lambda).
+To leading WKB order a wave that runs along both characteristics, with speeds +-w / cos(delta) in
+tilted time, grows between axis and wall at the mean rate
+
+    Lambda = 1/2 integral (F11 + F22) cos(delta) / w  /  integral cos(delta) / w,
+
+the limit of Re(lambda) for |Im(lambda)| -> infinity; modes of one parity are spaced evenly in
+Im(lambda). Both parities have the same line.
 """
 
 from dataclasses import dataclass
@@ -13,14 +17,15 @@ import numpy as np
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.errors import ConvergenceError
+from hopper.radial.grid import Grid
 from hopper.radial.solution import RadialSolution
 from hopper.spectral import chebyshev
-from hopper.stability.linearisation import coefficients_on_half_grid, require_no_tangency
+from hopper.stability.collocation import mode_grid
+from hopper.stability.tilted import TiltedCoefficients, on_grids
 
-_SIZES = (24, 36, 54, 80, 120, 180, 270, 400)
+_SIZES = (36, 54, 80, 120, 180, 270, 400)
 _TOLERANCE = 1e-13
 _ACCEPTABLE = 1e-6
-# Rounding of the quadrature and of q = s - cos(2 psi), which is small near the tangency.
 _ROUNDING = 1e-13
 
 
@@ -39,56 +44,55 @@ class AsymptoticLine:
     __repr__ = brief("abscissa", "spacing", "error_estimate")
 
 
-def asymptotic_line(solution: RadialSolution) -> AsymptoticLine:
+def asymptotic_line(
+    solution: RadialSolution, first: tuple[Grid, TiltedCoefficients] | None = None
+) -> AsymptoticLine:
     """Return the asymptotic line of a radial solution.
+
+    Parameters
+    ----------
+    solution : RadialSolution
+        Of a Mohr-Coulomb material.
+    first : pair, optional
+        A half grid off the axis with its coefficients, to try before finer ones.
 
     Raises
     ------
-    TangencyError
-        If psi reaches pi/4 - delta/2.
+    InvalidParameterError
+        If the material is not Mohr-Coulomb.
     ConvergenceError
-        If the quadrature does not reach 1e-6; psi is then too close to that value.
+        If the quadrature does not reach 1e-6; psi is then too close to its singular value.
     """
-    require_no_tangency(solution)
-    half_angle = solution.hopper.half_angle
+    line, done = _by_quadrature(solution, *first) if first else (None, False)
     for size in _SIZES:
-        growth, time = _integrands(solution, size)
-        # The integrands are even: Clenshaw-Curtis on the full grid, by its positive half.
-        weights = chebyshev.clenshaw_curtis_weights(2 * size)[size:]
-        travel_time = float(weights @ time)
-        abscissa = float(weights @ growth) / travel_time
-        last = chebyshev.half_coefficients(np.stack([growth, time], axis=1), "even")[-3:]
-        tail = (
-            max(
-                float(np.abs(last[:, 0] - abscissa * last[:, 1]).max()),
-                abs(abscissa) * float(np.abs(last[:, 1]).max()),
-            )
-            / travel_time
-        )
-        if tail < _TOLERANCE * max(1.0, abs(abscissa)):
+        if done:
             break
-    error = tail + _sensitivity(growth, time) * solution.error_estimate
-    error += _ROUNDING * max(1.0, abs(abscissa))
-    if error > _ACCEPTABLE * max(1.0, abs(abscissa)):
+        grid = mode_grid(solution, size, "symmetric")
+        line, done = _by_quadrature(solution, grid, on_grids(solution, [grid])[0])
+    if line.error_estimate > _ACCEPTABLE * max(1.0, abs(line.abscissa)):
         raise ConvergenceError(
-            f"asymptotic line not resolved: error {error:.1e}; psi is too close to "
-            "pi/4 - delta/2, lower the wall friction"
+            f"asymptotic line not resolved: error {line.error_estimate:.1e}; psi is too close to "
+            "its singular value, lower the wall friction"
         )
-    return AsymptoticLine(abscissa, pi / (half_angle * travel_time), error)
+    return line
 
 
-def _integrands(solution: RadialSolution, size: int) -> tuple[Array, Array]:
-    """Return (P cos delta + Q sin 2psi) / (s + cos 2psi) and cos delta / (s + cos 2psi)."""
-    hopper = solution.hopper
-    at = coefficients_on_half_grid(solution, size)
-    rho = 2 * hopper.s * at.sigma / cos(hopper.delta)
-    p = (at.f11 + at.f22) / 2
-    q = (at.f12 / rho + rho * at.f21) / 2
-    speed = hopper.s + np.cos(2 * at.psi)
-    growth = (p * cos(hopper.delta) + q * np.sin(2 * at.psi)) / speed
-    return growth, cos(hopper.delta) / speed
+def _by_quadrature(
+    solution: RadialSolution, grid: Grid, at: TiltedCoefficients
+) -> tuple[AsymptoticLine, bool]:
+    """Return the line on one grid, and whether a finer one would be of no use."""
+    slowness = cos(solution.hopper.delta) / at.w
+    growth = (at.f11 + at.f22) / 2
+    travel_time = float(grid.weights @ slowness)
+    abscissa = float(grid.weights @ (growth * slowness)) / travel_time
+    size = max(1.0, abs(abscissa))
+    tail = _tail(grid, (growth - abscissa) * slowness, slowness * size) / travel_time
+    sensitivity = float(np.abs(growth).max() + size)
+    error = tail + sensitivity * solution.error_estimate + _ROUNDING * size
+    return AsymptoticLine(abscissa, pi / travel_time, error), tail < _TOLERANCE * size
 
 
-def _sensitivity(growth: Array, time: Array) -> float:
-    """Amplification of relative errors of the fields by the integrand, an order of magnitude."""
-    return float(np.abs(growth).max() / np.abs(time).min())
+def _tail(grid: Grid, *integrands: Array) -> float:
+    """Return the largest of the last Chebyshev coefficients of what the quadrature adds up."""
+    values = np.stack([integrand * grid.stretch for integrand in integrands], axis=1)
+    return float(np.abs(chebyshev.half_coefficients(values, "even")[-3:]).max())

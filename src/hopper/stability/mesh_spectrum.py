@@ -15,7 +15,7 @@ from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 from hopper.radial.solution import RadialSolution
 from hopper.spectral import chebyshev
-from hopper.stability.collocation import Half, half_matrix, require_even
+from hopper.stability.paper_matrix import Half, half_matrix, require_even
 
 HALVES: tuple[Half, Half] = ("physical", "mirrored")
 _LEAST_NODES = 16
@@ -52,8 +52,6 @@ def mesh_spectrum(solution: RadialSolution, n: int) -> MeshSpectrum:
     ------
     InvalidParameterError
         If n is odd or less than 16.
-    TangencyError
-        If psi reaches pi/4 - delta/2.
     """
     require_even(n)
     if n < _LEAST_NODES:

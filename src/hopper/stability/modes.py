@@ -1,26 +1,63 @@
-"""Spectral abscissa of the linearised equations: low modes in physical mode, and the line.
+"""Spectral abscissa of the linearised equations: low modes in tilted time, and the line.
 
 The supremum of Re(lambda) is the larger of the low modes' and the asymptotic line's, so no large
-mesh is needed. A hopper is stable where it is negative, because t = log r decreases downwards.
+mesh is needed. A hopper is stable where it is negative, because t = log r decreases downwards. At a
+fold of the family of radial solutions lambda = 0 is a mode: the family's tangent solves the linear
+equations without t.
+
+A cone is judged by axisymmetric disturbances without swirl, a wedge by both parities.
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Literal
 
 import numpy as np
 
 from hopper.arrays import Array, Complex
 from hopper.brief import brief
-from hopper.errors import ConvergenceError
+from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.radial.solution import RadialSolution
 from hopper.stability.asymptotic_line import AsymptoticLine, asymptotic_line
-from hopper.stability.collocation import half_matrix
+from hopper.stability.collocation import (
+    Parity,
+    assemble,
+    mode_grid,
+    parities_of,
+    require_disturbance,
+    tilted_matrix,
+)
+from hopper.stability.tilted import on_grids
 
-_SIZES = (16, 24, 36, 54, 80, 120)
+Disturbances = Literal["symmetric", "any"]
+Governor = Literal["line", "complex mode", "real mode"]
+GOVERNORS: tuple[Governor, ...] = ("line", "complex mode", "real mode")
+Verdict = Literal["stable", "stable_symmetric_only", "unstable", "neutral"]
+
+_SIZES = (12, 16, 24, 36, 54, 80, 120)
 _TOLERANCE = 1e-10
 _LEAST_MODES = 3
 # The estimate of a mode's error is an order of magnitude.
 _SAFETY = 10
+_EPS = float(np.finfo(float).eps)
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Converged low modes of one parity with Im >= 0, by increasing modulus.
+
+    ``errors`` are absolute, what the mesh and the error of the radial fields leave in them.
+    """
+
+    eigenvalues: Complex
+    errors: Array
+
+    __repr__ = brief("eigenvalues", "errors")
+
+    @property
+    def highest(self) -> int:
+        """Index of the mode with the largest real part."""
+        return int(np.argmax(self.eigenvalues.real))
 
 
 @dataclass(frozen=True)
@@ -29,92 +66,196 @@ class LinearStability:
 
     Attributes
     ----------
-    eigenvalues : complex array, shape (n,)
-        Converged low modes of physical parity with Im >= 0, by increasing modulus.
-    mode_errors : array, shape (n,)
-        Absolute errors that the mesh leaves in them.
+    modes : dict
+        Low modes of each parity of disturbances, by its name.
     line : AsymptoticLine
+        Of both parities.
     abscissa : float
         Supremum of Re(lambda); not attained by a mode where the line governs.
-    governed_by : "mode" or "line"
+    governed_by : "line", "complex mode" or "real mode"
+    parity : "symmetric", "asymmetric" or None
+        Of the governing mode; None where the line governs.
     error_estimate : float
         Absolute, of the abscissa.
     """
 
-    eigenvalues: Complex
-    mode_errors: Array
+    modes: dict[Parity, Modes]
     line: AsymptoticLine
     abscissa: float
-    governed_by: Literal["mode", "line"]
+    governed_by: Governor
+    parity: Parity | None
     error_estimate: float
 
-    __repr__ = brief("abscissa", "governed_by", "line.abscissa", "eigenvalues", "error_estimate")
+    __repr__ = brief("abscissa", "governed_by", "parity", "line.abscissa", "error_estimate")
+
+    @property
+    def eigenvalues(self) -> Complex:
+        """Low modes of symmetric disturbances, shape (n,)."""
+        return self.modes["symmetric"].eigenvalues
+
+    @property
+    def symmetric(self) -> tuple[float, float]:
+        """Supremum of Re(lambda) for symmetric disturbances, and its error."""
+        return self._supremum("symmetric")
+
+    @property
+    def asymmetric(self) -> tuple[float, float] | None:
+        """The same for asymmetric disturbances, None where they were not looked at."""
+        return self._supremum("asymmetric") if "asymmetric" in self.modes else None
+
+    def _supremum(self, parity: Parity) -> tuple[float, float]:
+        modes = self.modes[parity]
+        value = float(modes.eigenvalues[modes.highest].real)
+        if value > self.line.abscissa:
+            return value, float(modes.errors[modes.highest])
+        return self.line.abscissa, self.line.error_estimate
 
     @property
     def stable(self) -> bool:
-        """Whether all perturbations decay down the hopper."""
+        """Whether all disturbances looked at decay down the hopper."""
         return self.abscissa < 0
 
+    @property
+    def verdict(self) -> Verdict:
+        """Neutral where the error of the abscissa exceeds its size."""
+        if abs(self.abscissa) <= self.error_estimate:
+            return "neutral"
+        if self.stable:
+            return "stable"
+        value, error = self.symmetric
+        return "stable_symmetric_only" if value < -error else "unstable"
 
-def linear_stability(solution: RadialSolution) -> LinearStability:
+
+def linear_stability(
+    solution: RadialSolution,
+    disturbances: Disturbances | None = None,
+    count: int = _LEAST_MODES,
+    tolerance: float = _TOLERANCE,
+    others: float | None = None,
+) -> LinearStability:
     """Return the low modes, the asymptotic line and the spectral abscissa of a radial solution.
+
+    Parameters
+    ----------
+    solution : RadialSolution
+        Of a Mohr-Coulomb material.
+    disturbances : "symmetric" or "any", optional
+        Default: any for wedges, symmetric for cones.
+    count : int
+        Modes of each parity wanted, at least 3; fewer are returned where no more are resolved.
+    tolerance, others : float
+        Error of the governing mode, and of the others (default: the same), relative where the
+        modulus exceeds 1.
 
     Raises
     ------
     InvalidParameterError
-        If the material is not Mohr-Coulomb.
-    TangencyError
-        If psi reaches pi/4 - delta/2.
+        If the material is not Mohr-Coulomb, or asymmetric disturbances of a cone are asked for.
     ConvergenceError
-        If too few low modes or the line converge.
+        If fewer than three low modes or the line converge.
     """
-    line = asymptotic_line(solution)
-    modes, mode_error = low_modes(solution)
-    errors = _SAFETY * mode_error * np.abs(modes)
-    highest = np.argmax(modes.real)
-    abscissa = float(modes[highest].real)
-    if abscissa > line.abscissa:
-        return LinearStability(modes, errors, line, abscissa, "mode", float(errors[highest]))
-    return LinearStability(modes, errors, line, line.abscissa, "line", line.error_estimate)
+    parities = _parities(solution, disturbances)
+    ladders = {parity: [mode_grid(solution, m, parity) for m in _SIZES[:2]] for parity in parities}
+    line_grid = mode_grid(solution, _SIZES[2], "symmetric")
+    grids = [grid for ladder in ladders.values() for grid in ladder]
+    *first, last = on_grids(solution, [*grids, line_grid])
+    line = asymptotic_line(solution, (line_grid, last))
+    matrices = iter([assemble(grid, at) for grid, at in zip(grids, first, strict=True)])
+    modes = {}
+    for parity in parities:
+        start = [_upper(next(matrices)) for _ in ladders[parity]]
+        wanted = _Wanted(max(count, _LEAST_MODES), tolerance, others or tolerance, line.abscissa)
+        modes[parity] = _low_modes(solution, parity, start, wanted)
+    return _judged(modes, line)
 
 
-def low_modes(solution: RadialSolution) -> tuple[Complex, float]:
-    """Return the converged low modes (Im >= 0, by modulus) and their largest relative error.
+def _parities(solution: RadialSolution, disturbances: str | None) -> tuple[Parity, ...]:
+    if disturbances not in (None, "symmetric", "any"):
+        raise InvalidParameterError(
+            f"disturbances = {disturbances!r} is unknown: use symmetric or any"
+        )
+    if disturbances == "any":
+        require_disturbance(solution.hopper, "asymmetric")
+    found = parities_of(solution.hopper.geometry)
+    return found[:1] if disturbances == "symmetric" else found
+
+
+def _judged(modes: dict[Parity, Modes], line: AsymptoticLine) -> LinearStability:
+    parity = max(modes, key=lambda name: modes[name].eigenvalues.real.max())
+    found = modes[parity]
+    highest = found.eigenvalues[found.highest]
+    if highest.real <= line.abscissa:
+        return LinearStability(modes, line, line.abscissa, "line", None, line.error_estimate)
+    governor: Governor = "complex mode" if highest.imag else "real mode"
+    error = float(found.errors[found.highest])
+    return LinearStability(modes, line, float(highest.real), governor, parity, error)
+
+
+@dataclass(frozen=True)
+class _Wanted:
+    """How many modes, to which relative errors, and the line that may govern in their place."""
+
+    count: int
+    tolerance: float
+    others: float
+    line: float
+
+
+def _low_modes(
+    solution: RadialSolution, parity: Parity, start: list[Complex], wanted: _Wanted
+) -> Modes:
+    """Return converged low modes; ``start`` has those of the first meshes.
 
     Errors decay geometrically with the mesh, so that of the finer of two meshes is about their
     difference to the power of their ratio. A mode counts while it and all of smaller modulus have
-    a relative error below 1e-10 by that estimate.
-
-    Raises
-    ------
-    TangencyError
-        As :func:`stability`.
-    ConvergenceError
-        If fewer than three modes converge on the finest mesh.
+    a partner on the coarser mesh and an error below what is wanted by that estimate.
     """
-    previous = _SIZES[0]
-    coarse = upper_eigenvalues(solution, previous)
-    for size in _SIZES[1:]:
-        fine = upper_eigenvalues(solution, size)
-        count = min(coarse.size, fine.size)
-        change = np.abs(coarse[:count] - fine[:count]) / np.abs(fine[:count])
-        error = change ** (size / previous)
-        unresolved = np.flatnonzero(error > _TOLERANCE)
-        converged = int(unresolved[0]) if unresolved.size else count
-        if converged >= _LEAST_MODES:
-            # Rounding of the collocation matrix: a few units of its condition, about size ** 2.
-            rounding = np.finfo(float).eps * size**2
-            return fine[:converged], max(float(error[:converged].max()), rounding)
-        coarse, previous = fine, size
-    raise ConvergenceError(
-        f"only {converged} low modes converged at {size} half-grid points; psi is too close to "
-        "pi/4 - delta/2, lower the wall friction"
-    )
+    coarse, best = start[0], None
+    for previous, size in pairwise(_SIZES):
+        index = _SIZES.index(size)
+        fine = start[index] if index < len(start) else upper_eigenvalues(solution, size, parity)
+        error = partner_changes(fine, coarse) ** (size / previous)
+        coarse = fine
+        unresolved = np.flatnonzero(error > wanted.others)
+        converged = min(int(unresolved[0]) if unresolved.size else fine.size, wanted.count)
+        if converged < _LEAST_MODES:
+            continue
+        # Rounding of the collocation matrix: a few units of its condition, about size ** 2.
+        relative = _SAFETY * (error[:converged] + solution.error_estimate) + _EPS * size**2
+        best = Modes(fine[:converged], relative * np.maximum(np.abs(fine[:converged]), 1))
+        top = best.highest
+        by_line = wanted.line - best.eigenvalues[top].real > best.errors[top]
+        if converged >= wanted.count and (by_line or error[top] < wanted.tolerance):
+            return best
+    if best is None:
+        raise ConvergenceError(
+            f"fewer than {_LEAST_MODES} low {parity} modes converged at {size} half-grid points; "
+            "psi is too close to its singular value, lower the wall friction"
+        )
+    return best
 
 
-def upper_eigenvalues(solution: RadialSolution, size: int) -> Complex:
-    """Return the eigenvalues with Im >= 0 of the physical half, by increasing modulus."""
-    matrix = half_matrix(solution, size)
+def partner_changes(fine: Complex, coarse: Complex) -> Array:
+    """Return the distance of each mode to its partner, inf where another one has it.
+
+    Relative to the modulus where that is above 1.
+    """
+    distance = np.abs(fine[:, None] - coarse)
+    partner = distance.argmin(axis=1)
+    change = distance[np.arange(fine.size), partner] / np.maximum(np.abs(fine), 1)
+    _, first = np.unique(partner, return_index=True)
+    taken = np.ones(fine.size, dtype=bool)
+    taken[first] = False
+    change[taken] = np.inf
+    return change
+
+
+def upper_eigenvalues(solution: RadialSolution, size: int, parity: Parity = "symmetric") -> Complex:
+    """Return the eigenvalues with Im >= 0 on ``size`` half-grid points, by increasing modulus."""
+    return _upper(tilted_matrix(solution, size, parity))
+
+
+def _upper(matrix: Array) -> Complex:
     values = np.linalg.eigvals(matrix).astype(np.complex128)
     upper = values[values.imag >= 0]
     return upper[np.argsort(np.abs(upper))]

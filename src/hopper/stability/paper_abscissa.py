@@ -8,9 +8,9 @@ from hopper.arrays import Complex
 from hopper.errors import ConvergenceError
 from hopper.radial.solution import RadialSolution
 from hopper.spectral.matching import by_modulus, relative_changes
-from hopper.stability.collocation import Half, half_matrix, require_even
 from hopper.stability.convergence_filter import require_finer
 from hopper.stability.mesh_spectrum import HALVES
+from hopper.stability.paper_matrix import Half, half_matrix, require_even
 
 
 @dataclass(frozen=True)
@@ -41,8 +41,6 @@ def paper_abscissa(
     ------
     InvalidParameterError
         If a mesh is odd or too small, or the meshes are in the wrong order.
-    TangencyError
-        If psi reaches pi/4 - delta/2.
     ConvergenceError
         If nothing is kept.
     """

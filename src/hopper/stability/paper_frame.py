@@ -1,4 +1,4 @@
-"""Coefficients of the stress equations linearised about a radial solution, (4.1).
+"""The paper's frame: the linearised stress equations (4.1) in t = log r.
 
 With sigma = r (sigma0 + eps sigma1(t, theta)), psi = psi0 + eps psi1(t, theta) and t = log r,
 
@@ -10,26 +10,16 @@ depend on it, norms do.
 """
 
 from dataclasses import dataclass
-from functools import lru_cache
-from math import pi
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq
 
 from hopper.arrays import Array
 from hopper.brief import brief
-from hopper.errors import InvalidParameterError, TangencyError
+from hopper.errors import InvalidParameterError
 from hopper.radial.grid import half_grid
 from hopper.radial.solution import RadialSolution
-from hopper.yield_conditions import MOHR_COULOMB
-
-# Half grids that modes and line begin with. At these sizes numpy's overhead is most of the cost, so
-# their coefficients are evaluated together.
-_FIRST_GRIDS = (16, 24, 36)
-# Largest psi at the nodes, and at those of a grid four times as fine, relative to the limit, from
-# which a closer look at the maximum is due: they miss it to second order in their distance.
-_NEAR, _NEAR_ON_FINER = 0.98, 0.998
+from hopper.stability.tilted import require_linear
 
 
 @dataclass(frozen=True)
@@ -85,33 +75,14 @@ def coefficients(
 def coefficients_on_half_grid(
     solution: RadialSolution, m: int, psi_scale: float = 1.0
 ) -> Coefficients:
-    """Return the coefficients at the ``m`` positive Chebyshev points, as :func:`coefficients`.
-
-    The arrays are read-only.
-    """
-    sizes = _FIRST_GRIDS if m in _FIRST_GRIDS else (m,)
-    return _on_half_grids(solution, sizes, psi_scale)[sizes.index(m)]
-
-
-@lru_cache(maxsize=4)
-def _on_half_grids(
-    solution: RadialSolution, sizes: tuple[int, ...], psi_scale: float
-) -> tuple[Coefficients, ...]:
+    """Return the coefficients at the ``m`` positive Chebyshev points, as :func:`coefficients`."""
     _require_linear(solution, psi_scale)
-    grids = [half_grid(m, solution.hopper.half_angle) for m in sizes]
-    theta = np.concatenate([grid.theta for grid in grids])
-    at = vars(_coefficients(solution, theta, solution.fields_on(grids), psi_scale))
-    for array in at.values():
-        array.flags.writeable = False
-    parts = [slice(stop - m, stop) for m, stop in zip(sizes, np.cumsum(sizes), strict=True)]
-    return tuple(Coefficients(**{name: at[name][part] for name in at}) for part in parts)
+    grid = half_grid(m, solution.hopper.half_angle)
+    return _coefficients(solution, grid.theta, solution.fields_on([grid]), psi_scale)
 
 
 def _require_linear(solution: RadialSolution, psi_scale: float) -> None:
-    if solution.hopper.material != MOHR_COULOMB:
-        raise InvalidParameterError(
-            "linear stability is formulated for Mohr-Coulomb materials only: use mohr-coulomb"
-        )
+    require_linear(solution)
     if not (np.isfinite(psi_scale) and psi_scale > 0):
         raise InvalidParameterError(f"psi_scale = {psi_scale!r} must be a positive number")
 
@@ -145,29 +116,3 @@ def _coefficients(
         f21=(b21 + k * c21) / p,
         f22=b22 + k * c22,
     )
-
-
-def tangency_angle(delta: float) -> float:
-    """Return the psi (radians) at which a characteristic is tangent to the arcs r = const."""
-    return pi / 4 - delta / 2
-
-
-@lru_cache(maxsize=8)
-def require_no_tangency(solution: RadialSolution) -> None:
-    """Check that psi stays below pi/4 - delta/2.
-
-    Raises
-    ------
-    TangencyError
-        If it does not.
-    """
-    limit = tangency_angle(solution.hopper.delta)
-    if solution.psi.max() < _NEAR * limit:
-        return
-    finer = half_grid(4 * solution.theta.size, solution.hopper.half_angle)
-    if solution.fields_on([finer])[1].max() < _NEAR_ON_FINER * limit:
-        return
-    theta, largest = solution.psi_maximum()
-    if largest >= limit:
-        first = brentq(lambda angle: float(solution.psi_at(angle)[0]) - limit, 0.0, theta)
-        raise TangencyError.at(solution.hopper.delta, first)

@@ -1,0 +1,133 @@
+"""The spectral abscissa of hoppers that differ in internal friction.
+
+They are solved from neighbour to neighbour in delta. Near the fold of the family phi is a bad
+parameter, as Re(lambda) goes with the square root of the distance: there tau = 1 / sigma_0 is one.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+
+from hopper.errors import ConvergenceError, InvalidParameterError
+from hopper.problem import Geometry, Hopper
+from hopper.radial.collocation import Closure, Member, solve
+from hopper.radial.friction_limit import fold_near
+from hopper.radial.members import physical_member
+from hopper.radial.solution import solution_of
+from hopper.stability.asymptotic_line import asymptotic_line
+from hopper.stability.modes import (
+    Disturbances,
+    LinearStability,
+    linear_stability,
+    upper_eigenvalues,
+)
+
+# Half-grid points and low modes for what else is neutral at a fold.
+_FOLD_SIZE, _FOLD_MODES = 54, 5
+# Root finding, in radians: well below 1e-6 degrees.
+ROOT_TOLERANCE = 1e-12
+# A secant's last step: the next one would be far smaller.
+_LAST_STEP = 1e-9
+_SECANT_STEPS = 12
+_PROBE = 1e-6
+
+Missing = Literal["no_radial_solution", "no_wall_angle", "non_positive_stress", "not_converged"]
+
+
+@dataclass
+class Hoppers:
+    """Hoppers of one shape and half angle (radians); the last member solved starts the next."""
+
+    geometry: Geometry
+    half_angle: float
+    disturbances: Disturbances | None = None
+    last: Member | None = field(default=None, repr=False)
+
+    def hopper(self, delta: float) -> Hopper:
+        """Return the hopper with internal friction delta (radians)."""
+        return Hopper(self.geometry, delta, self.half_angle)
+
+    def at_wall(self, delta: float, friction_angle: float) -> LinearStability | Missing:
+        """Return the stability at a wall friction, or what is missing; angles in radians."""
+        hopper = self.hopper(delta)
+        if friction_angle > hopper.material.largest_friction_angle(delta):
+            return "no_wall_angle"
+        try:
+            member = physical_member(hopper, friction_angle, self.last)
+            return "no_radial_solution" if member is None else self._judged(member)
+        except ConvergenceError:
+            return "not_converged"
+
+    def with_tau(self, delta: float, tau: float) -> LinearStability | Missing:
+        """Return the stability of the member with the given tau, close to the last one."""
+        try:
+            member = solve(self.hopper(delta), Closure("tau", tau), self.last)
+            return "no_radial_solution" if member is None else self._judged(member)
+        except ConvergenceError:
+            return "not_converged"
+
+    def at_fold(self, delta: float) -> float:
+        """Return the spectral abscissa at the fold, near the last member, without the zero mode.
+
+        There a real mode passes 0. Near a corner of the stable domain it is one of two that are
+        small: the other one is their sum, whose rounding is not that of a double root.
+
+        Raises
+        ------
+        ConvergenceError
+            If the fold or the modes are not resolved.
+        """
+        member = fold_near(self.hopper(delta), self.last) if self.last else None
+        if member is None:
+            raise ConvergenceError(f"no fold near delta = {np.degrees(delta):.6g} deg")
+        self.last = member
+        solution = solution_of(member)
+        first, second, *others = upper_eigenvalues(solution, _FOLD_SIZE)[:_FOLD_MODES]
+        if first.imag:
+            others += [2 * first, second]
+        else:
+            others += [second if second.imag else first + second]
+        line = asymptotic_line(solution).abscissa
+        return max(line, *(float(mode.real) for mode in others))
+
+    def _judged(self, member: Member) -> LinearStability | Missing:
+        self.last = member
+        if member.tau <= 0:
+            return "non_positive_stress"
+        return linear_stability(solution_of(member), self.disturbances)
+
+
+def root_near(at: Callable[[float], object], guess: float) -> float | None:
+    """Return a delta (radians) near a guess at which ``at`` has a vanishing abscissa, None if not.
+
+    ``at`` returns a LinearStability, or something else where there is none.
+    """
+
+    def growth(delta: float) -> float:
+        result = at(delta)
+        if isinstance(result, LinearStability):
+            return result.abscissa
+        raise ConvergenceError(str(result))
+
+    return root(growth, guess)
+
+
+def root(
+    growth: Callable[[float], float], guess: float, tolerance: float = _LAST_STEP
+) -> float | None:
+    """Converge to a zero by the secant method, from a second point on either side, or give up."""
+    for side in (-_PROBE, _PROBE):
+        try:
+            before, at_before = guess + side, growth(guess + side)
+            here, at_here = guess, growth(guess)
+            for _ in range(_SECANT_STEPS):
+                following = here - at_here * (here - before) / (at_here - at_before)
+                if abs(following - here) < tolerance:
+                    return following
+                before, at_before = here, at_here
+                here, at_here = following, growth(following)
+        except (ConvergenceError, InvalidParameterError, ZeroDivisionError):
+            continue
+    return None
