@@ -18,7 +18,7 @@ from scipy.linalg import eigvals
 from hopper import Hopper, RadialSolution, solve_radial
 from hopper.domain.stability_map import sweep_friction
 from hopper.spectral.matching import relative_changes
-from hopper.stability.collocation import paper_matrix
+from hopper.stability.paper_matrix import paper_matrix
 
 MESHES = (400, 200)
 TOLERANCE = 1e-3

@@ -17,10 +17,10 @@ from hopper.arrays import Complex
 from hopper.problem import Geometry
 from hopper.spectral import chebyshev
 from hopper.spectral.matching import relative_changes
-from hopper.stability.collocation import paper_matrix
 from hopper.stability.convergence_filter import convergence_filter
 from hopper.stability.mesh_spectrum import mesh_spectrum
 from hopper.stability.modes import upper_eigenvalues
+from hopper.stability.paper_matrix import paper_matrix
 
 MESHES = (400, 200)
 TOLERANCE = 1e-3

@@ -1,6 +1,8 @@
-"""Borders of the stable domain: neutral curve, fold, tangency, singular velocity."""
+"""Borders of the stable domain: neutral curve and limit of friction, and levels of psi."""
 
 import logging
+from dataclasses import replace
+from functools import partial
 from math import radians
 from typing import Any
 
@@ -9,7 +11,9 @@ import xarray as xr
 
 from hopper_workflow import artifacts, jobs, paper_checks, ranges
 from hopper.domain.borders import borders
-from hopper.domain.neutral import ROOT_TOLERANCE, NeutralCurve, neutral_curve, neutral_delta
+from hopper.domain.growth import ROOT_TOLERANCE
+from hopper.domain.neutral_curve import NeutralCurve, neutral_curve
+from hopper.domain.neutral_points import neutral_delta
 from hopper.problem import Geometry, Hopper, as_geometry
 from hopper.radial.solution import solve_radial
 from hopper_data.datasets import dataset
@@ -30,17 +34,13 @@ def compute_borders(
     A few points of the neutral curve, its end left out, are checked by the paper's algorithm.
     """
     shape, half_angle = as_geometry(geometry), radians(half_angle_deg)
-    neutral = neutral_curve(shape, half_angle, radians(neutral_step_deg))
-    logging.info(
-        "%s, %g deg: neutral delta %.6f deg at phi = 0, curve ends at phi = %.6f deg",
-        geometry,
-        half_angle_deg,
-        np.degrees(neutral.delta[0]),
-        np.degrees(neutral.friction_angle[-1]),
-    )
     axis = ranges.spaced(**delta_deg)
+    trace = partial(neutral_curve, shape, half_angle, radians(neutral_step_deg), radians(axis[-1]))
+    neutral = trace()
+    logging.info("%s, %g deg: %s", geometry, half_angle_deg, neutral)
     result = {
         "neutral": neutral,
+        "symmetric": trace("symmetric") if shape == "wedge" else None,
         "neutral_error": ROOT_TOLERANCE,
         "check": _check(shape, half_angle, neutral, **check),
         "borders": borders(shape, half_angle, np.radians(axis)),
@@ -69,6 +69,15 @@ def _check(
 
 TABLE = (
     *within("neutral", NEUTRAL_CURVE),
+    *(
+        replace(
+            variable,
+            name=variable.name.replace("neutral", "symmetric"),
+            label=f"{variable.label}, symmetric disturbances only",
+            over=variable.over and "symmetric_point",
+        )
+        for variable in within("symmetric", NEUTRAL_CURVE)
+    ),
     angle("neutral_error", "tolerance of neutral_delta"),
     angle("check_delta", "internal friction of a checked neutral point", "check", "check.delta"),
     angle("check_phi", "wall friction of a checked neutral point", "check", "check.phi"),

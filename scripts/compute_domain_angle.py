@@ -2,17 +2,18 @@
 
 import logging
 from collections.abc import Sequence
-from math import radians
+from math import ceil, radians
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from hopper_workflow import artifacts, jobs
-from hopper.domain.borders import stable_area, tangency_curve
-from hopper.domain.neutral import NoNeutralPointError, neutral_curve, neutral_delta
+from hopper.domain.borders import borders, stable_area
+from hopper.domain.neutral_curve import NeutralCurve, neutral_curve
+from hopper.domain.neutral_points import neutral_delta
 from hopper_data.datasets import dataset
-from hopper_data.tables import angle, flag, in_degrees
+from hopper_data.tables import Table, angle, flag, in_degrees
 
 
 def compute_domain_angle(
@@ -21,22 +22,22 @@ def compute_domain_angle(
     phis_deg: Sequence[float],
     largest_delta_deg: float,
     neutral_step_deg: float,
-    tangency_points: int,
 ) -> xr.Dataset:
     """Compute the area of the domain up to a largest delta, and neutral deltas."""
     report = jobs.progress(logging.getLogger(), "half angles")
+    step, largest = radians(neutral_step_deg), radians(largest_delta_deg)
     domains: list[dict[str, Any]] = []
     for half_angle in half_angles_deg:
-        curve = neutral_curve("cone", radians(half_angle), radians(neutral_step_deg))
-        deltas = np.linspace(curve.delta[-1], radians(largest_delta_deg), tangency_points)
-        tangency = tangency_curve("cone", radians(half_angle), deltas)
-        area = stable_area(curve, deltas, tangency)
-        coarse = stable_area(curve.thinned(), deltas[::2], tangency[::2])
-        neutral = [_neutral(half_angle, phi) for phi in phis_deg]
+        curve = neutral_curve("cone", radians(half_angle), step, largest)
+        points = max(3, 1 + ceil((largest - curve.delta[-1]) / step))
+        limit = borders("cone", radians(half_angle), np.linspace(curve.delta[-1], largest, points))
+        areas = np.array(stable_area(curve, limit))
+        errors = np.abs(areas - stable_area(curve.thinned(), limit.thinned()))
+        neutral = [_neutral(curve, half_angle, phi) for phi in phis_deg]
         domains.append(
             {
-                "area": area,
-                "area_error": abs(area - coarse),
+                "area": dict(zip(_AREAS, areas, strict=True)),
+                "error": dict(zip(_AREAS, errors, strict=True)),
                 "neutral_delta": neutral,
                 "missing": np.isnan(neutral),
             }
@@ -46,23 +47,34 @@ def compute_domain_angle(
     return dataset({"domains": domains, **axes}, TABLE, AXES)
 
 
-def _neutral(half_angle_deg: float, phi_deg: float) -> float:
-    try:
-        return neutral_delta("cone", radians(half_angle_deg), radians(phi_deg))
-    except NoNeutralPointError as error:
-        logging.info("%s", error)
+def _neutral(curve: NeutralCurve, half_angle_deg: float, phi_deg: float) -> float:
+    """Return the neutral delta at one wall friction, NaN above the curve."""
+    phi = radians(phi_deg)
+    if phi > curve.friction_angle.max():
         return float("nan")
+    guess = np.interp(phi, curve.friction_angle, curve.delta)
+    return neutral_delta("cone", radians(half_angle_deg), phi, float(guess))
+
+
+_AREAS = ("whole", "reached")
+
+
+def _area(name: str, words: str, which: str) -> Table:
+    return (
+        angle(name, words, "half_angle", f"domains.area.{which}", power=2),
+        angle(
+            f"{name}_error",
+            "change of it on twice the spacing of points",
+            "half_angle",
+            f"domains.error.{which}",
+            power=2,
+        ),
+    )
 
 
 TABLE = (
-    angle("area", "area of the stable domain", "half_angle", "domains.area", power=2),
-    angle(
-        "area_error",
-        "change of the area on twice the spacing of points",
-        "half_angle",
-        "domains.area_error",
-        power=2,
-    ),
+    *_area("area", "area of the stable domain", "whole"),
+    *_area("area_reached", "area of its part where radial flow reaches the wall", "reached"),
     angle(
         "neutral_delta",
         "internal friction of neutral stability",
@@ -72,7 +84,7 @@ TABLE = (
     flag(
         "neutral_flag",
         "whether there is a neutral delta",
-        ("neutral_point", "tangency_comes_first"),
+        ("neutral_point", "no_neutral_point"),
         "half_angle phi",
         "domains.missing",
     ),

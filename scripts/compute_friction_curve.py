@@ -2,6 +2,7 @@
 
 import logging
 from collections.abc import Sequence
+from dataclasses import replace
 from math import atan, tan
 from typing import Any
 
@@ -10,13 +11,14 @@ import xarray as xr
 
 from hopper_workflow import artifacts, jobs, paper_checks, ranges
 from hopper.domain.borders import tangency_friction
-from hopper.domain.stability_map import REGIONS, sweep_friction
+from hopper.domain.stability_map import sweep_friction
 from hopper.problem import Hopper
 from hopper.radial.friction_limit import friction_limit
 from hopper.radial.solution import solve_radial
 from hopper_data.datasets import dataset
+from hopper_data.domain import SWEEP
 from hopper_data.inputs import hopper_of
-from hopper_data.tables import flag, in_degrees, number, within
+from hopper_data.tables import in_degrees, number, within
 
 
 def compute_friction_curve(
@@ -32,10 +34,7 @@ def compute_friction_curve(
     points, meshes = check["points"], {name: check[name] for name in check if name != "points"}
     hoppers = [hopper_of(geometry, delta, half_angle_deg) for delta in deltas_deg]
     ends = [_ends(hopper) for hopper in hoppers]
-    checked = [
-        np.linspace(0, min(np.nanmin(list(end.values())), mu["stop"]), points + 1)[:-1]
-        for end in ends
-    ]
+    checked = [np.linspace(0, min(end["limit"], mu["stop"]), points + 1)[:-1] for end in ends]
     solutions = [
         solve_radial(hopper, atan(value))
         for hopper, frictions in zip(hoppers, checked, strict=True)
@@ -61,11 +60,7 @@ def _ends(hopper: Hopper) -> dict[str, float]:
 
 
 TABLE = (
-    number("abscissa", "supremum of Re(lambda)", "delta mu", "sweeps.abscissa"),
-    number("line", "asymptotic line", "delta mu", "sweeps.line"),
-    number("highest_mode", "largest real part of a low mode", "delta mu", "sweeps.highest_mode"),
-    number("abscissa_error", "error estimate of the abscissa", "delta mu", "sweeps.error_estimate"),
-    flag("region", "verdict, or why there is none", REGIONS, "delta mu", "sweeps.region"),
+    *(replace(variable, over="delta mu") for variable in within("sweeps", SWEEP)),
     number("tangency_mu", "mu at the tangency", "delta", "ends.tangency"),
     number("limit_mu", "largest mu with a solution", "delta", "ends.limit"),
     number("check_mu", "mu of the checked point", "delta check", "check.mu"),

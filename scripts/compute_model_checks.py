@@ -17,7 +17,7 @@ from hopper.problem import Hopper
 from hopper.radial.friction_limit import friction_limit
 from hopper.radial.solution import radial_solutions
 from hopper.radial.velocity import solve_velocity
-from hopper.stability.linearisation import tangency_angle
+from hopper.stability.tilted import tangency_angle
 from hopper.yield_conditions import VON_MISES, YieldCondition, yield_condition
 from hopper_data.datasets import dataset
 from hopper_data.inputs import hopper_of

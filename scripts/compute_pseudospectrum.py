@@ -10,8 +10,8 @@ from hopper_workflow import artifacts, jobs, ranges
 from hopper.spectral.matching import by_modulus
 from hopper.spectral.pseudospectrum import pseudospectrum
 from hopper.spectral.schur import schur_form
-from hopper.stability.collocation import Half, half_matrix
 from hopper.stability.mesh_spectrum import HALVES
+from hopper.stability.paper_matrix import Half, half_matrix
 from hopper.stability.transient import Norm, half_weights
 from hopper_data.datasets import dataset
 from hopper_data.inputs import solution_of
@@ -36,7 +36,7 @@ def compute_pseudospectrum(
     grids, eigenvalues = [], []
     for half in halves:
         matrix = half_matrix(solution, nodes // 2, half, psi_scale)
-        form = schur_form(matrix, half_weights(nodes // 2, norm))
+        form = schur_form(matrix, half_weights(solution.hopper, nodes // 2, norm))
         report = jobs.progress(logging.getLogger(), f"{half} half, grid points")
         grids.append(pseudospectrum(form, x, y, progress=report).sigma_min)
         eigenvalues.append(form.eigenvalues)

@@ -15,7 +15,7 @@ from hopper.spectral.sensitivity import (
     resolvent_norm,
 )
 from hopper.spectral.transient import abscissa, condition_number, propagator_norm
-from hopper.stability.collocation import half_matrix
+from hopper.stability.paper_matrix import half_matrix
 from hopper.stability.transient import Norm, half_weights, modal_basis
 from hopper_data.datasets import dataset
 from hopper_data.inputs import solution_of
@@ -37,7 +37,7 @@ def compute_sensitivity(
     """Measure the non-normality of M on the kept modes and of the full matrix."""
     solution = solution_of(**hopper)
     kept = kept_modes.by_half(artifacts.read(spectrum), mode)
-    weight = half_weights(nodes // 2, norm)
+    weight = half_weights(solution.hopper, nodes // 2, norm)
     forms = {
         half: schur_form(half_matrix(solution, nodes // 2, half, psi_scale), weight)
         for half in kept

@@ -27,16 +27,17 @@ def draw(wedge: str, cone: str, *, half_angle_deg: float) -> Figure:
 
 
 def _draw_curve(axis: Axes, data: xr.Dataset, color: str, label: str) -> None:
-    """Solid where a mode governs, dashed where the line does; a bar where the curve ends."""
-    mu, abscissa = data.mu.values, data.abscissa.values
-    by_line = data.line.values >= data.highest_mode.values
+    """Solid where a mode governs, dashed where the line does; a bar at the limit of friction."""
+    mu, abscissa = data.mu.values, data.abscissa_symmetric.values
+    by_line = data.line.values >= abscissa
     axis.plot(mu, np.where(by_line, np.nan, abscissa), "-", color=color, label=label)
     # A segment between the two kinds belongs to the line: the curves must not have gaps.
     reach = by_line | np.roll(by_line, 1) | np.roll(by_line, -1)
     axis.plot(mu, np.where(reach, abscissa, np.nan), "--", color=color)
-    if float(data.tangency_mu) < mu[-1]:
+    axis.plot(mu, data.abscissa_asymmetric, ":", color=color)
+    if float(data.limit_mu) < mu[-1]:
         last = abscissa[np.isfinite(abscissa)][-1]
-        axis.plot(data.tangency_mu, last, "|", color=color, markersize=9, mew=1.6)
+        axis.plot(data.limit_mu, last, "|", color=color, markersize=9, mew=1.6)
     axis.plot(data.check_mu, data.check_as_worded, "o", color=color, mfc="none", mew=0.7)
     axis.plot(data.check_mu, data.check_physical, "x", color=color, mew=0.9)
 
@@ -45,7 +46,8 @@ _COLORS = (plotting.BLUE, plotting.ORANGE, plotting.GREEN, plotting.PURPLE, plot
 _LEGEND = (
     {"color": "0.3", "linestyle": "-", "label": "governed by a mode"},
     {"color": "0.3", "linestyle": "--", "label": r"governed by the line $\Lambda$"},
-    {"color": "0.3", "linestyle": "", "marker": "|", "markersize": 9, "label": "tangency"},
+    {"color": "0.3", "linestyle": ":", "label": "asymmetric disturbances of wedges"},
+    {"color": "0.3", "linestyle": "", "marker": "|", "markersize": 9, "label": "limit of friction"},
     {"color": "0.3", "linestyle": "", "marker": "o", "mfc": "none", "label": "paper's algorithm"},
     {"color": "0.3", "linestyle": "", "marker": "x", "label": "same, physical parity, resolved"},
 )

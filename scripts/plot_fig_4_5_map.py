@@ -38,7 +38,9 @@ def draw(
             shading="nearest",
             rasterized=True,
         )
-        domains.draw_borders(axis, artifacts.read(border))
+        known = artifacts.read(border)
+        domains.hatch_unreached(axis, known)
+        domains.draw_borders(axis, known)
         axis.set_xlim(float(whole.delta.min()), float(whole.delta.max()))
         axis.set_ylim(0, float(whole.phi.max()))
         axis.set_title(title)
@@ -73,7 +75,6 @@ def _mark_undecided(axis: Axes, data: xr.Dataset) -> None:
 
 
 _GREYS = {
-    "tangent_characteristic": ("0.8", "beyond the tangency"),
     "no_radial_solution": ("0.93", "no radial solution"),
     "non_positive_stress": ("0.7", "stress not positive"),
     "not_converged": ("0.3", "not resolved"),

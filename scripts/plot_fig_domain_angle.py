@@ -10,8 +10,16 @@ def draw(artifact: str) -> Figure:
     """Plot the area of the domain and the neutral delta at several wall frictions."""
     data = artifacts.read(artifact)
     figure, (left, right) = plotting.subplots(1, 2, height=2.8)
-    left.plot(data.half_angle, data.area, "o-", color=plotting.BLUE)
+    left.plot(data.half_angle, data.area, "o-", color=plotting.BLUE, label="stable")
+    left.plot(
+        data.half_angle,
+        data.area_reached,
+        "s--",
+        color=plotting.ORANGE,
+        label=r"the same with $\psi < \pi/4$",
+    )
     left.set_ylim(bottom=0)
+    left.legend()
     left.set_ylabel("area of the stable domain (square degrees)")
     for index, color in enumerate(plotting.sequence(data.sizes["phi"])):
         curve = data.neutral_delta.isel(phi=index)

@@ -52,6 +52,22 @@ def check(config: Mapping[str, Any], schema_path: str | Path) -> None:
         raise ConfigurationError(f"config key '{key}': {problem}")
 
 
+def drop_outdated(config: dict[str, Any], schema_path: str | Path) -> list[str]:
+    """Remove keys that the schema calls deprecated, and return a line for each."""
+    return list(_dropped(config, _schema(schema_path), "config key '"))
+
+
+def _dropped(part: Any, schema: Mapping[str, Any], prefix: str) -> Iterator[str]:
+    for key, known in schema.get("properties", {}).items():
+        if not isinstance(part, dict) or key not in part:
+            continue
+        if known.get("deprecated"):
+            del part[key]
+            yield f"{prefix}{key}' {known['description']}"
+        else:
+            yield from _dropped(part[key], known, f"{prefix}{key}.")
+
+
 def require_schema(
     data: Mapping[str, Any], schema_path: str | Path, source: str = "config"
 ) -> None:

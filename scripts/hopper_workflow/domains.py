@@ -6,39 +6,43 @@ from matplotlib.axes import Axes
 
 from hopper_workflow import plotting
 
-_SHADES = {
-    "no radial solution": "0.93",
-    "beyond the tangency": "0.8",
-    "unstable": plotting.AMBER,
-    "stable": plotting.SKY,
-}
+_NO_SOLUTION, _UNSTABLE, _STABLE = "0.96", plotting.AMBER, "#BFE3F5"
 
 
 def shade(axis: Axes, data: xr.Dataset) -> None:
     """Fill the regions; each lies on the one before it."""
     delta, limit = data.delta.values, np.nan_to_num(data.limit_phi.values)
-    tangency = np.nan_to_num(data.tangency_phi.values)
-    tops = {
-        "no radial solution": delta,
-        "beyond the tangency": np.minimum(limit, delta),
-        "unstable": np.minimum(tangency, delta),
-    }
-    for kind, top in tops.items():
-        axis.fill_between(delta, 0, top, color=_SHADES[kind], linewidth=0, label=kind)
-    beyond = (delta > data.neutral_delta.values[-1]) & (tangency > 0)
-    right = delta[beyond]
-    closing = right[-1:] if beyond[-1] else data.delta.values[np.append(False, beyond[:-1])][-1:]
+    axis.fill_between(delta, 0, delta, color=_NO_SOLUTION, linewidth=0, label="no radial solution")
+    axis.fill_between(delta, 0, limit, color=_UNSTABLE, linewidth=0, label="unstable")
+    beyond = (delta > data.neutral_delta.values[-1]) & (limit > 0)
     axis.fill(
-        np.concatenate([data.neutral_delta, right, closing]),
-        np.concatenate([data.neutral_phi, tangency[beyond], np.zeros(closing.size)]),
-        color=_SHADES["stable"],
+        np.concatenate([data.neutral_delta, delta[beyond], delta[beyond][-1:]]),
+        np.concatenate([data.neutral_phi, limit[beyond], [0.0]]),
+        color=_STABLE,
         linewidth=0,
         label="stable",
+    )
+    hatch_unreached(axis, data)
+
+
+def hatch_unreached(axis: Axes, data: xr.Dataset) -> None:
+    """Hatch where psi exceeds pi/4: stress and its stability are regular, the velocity is not."""
+    lower = data.singular_velocity_phi.values
+    axis.fill_between(
+        data.delta.values,
+        lower,
+        data.limit_phi.values,
+        where=np.isfinite(lower),
+        facecolor="none",
+        edgecolor="0.35",
+        hatch="////",
+        linewidth=0,
+        label=r"$\psi > \pi/4$: no radial flow at the wall",
     )
 
 
 def draw_borders(axis: Axes, data: xr.Dataset) -> None:
-    """Draw the neutral curve and the borders the paper leaves out."""
+    """Draw the neutral curve, the limit of friction, and levels of psi that bound nothing."""
     delta = data.delta.values
     axis.plot(delta, delta, color=plotting.BLACK, linewidth=0.8, label=r"$\phi = \delta$")
     axis.plot(
@@ -50,17 +54,11 @@ def draw_borders(axis: Axes, data: xr.Dataset) -> None:
     )
     axis.plot(
         delta,
-        data.singular_velocity_phi,
-        color=plotting.GREEN,
-        linestyle=":",
-        label=r"$\psi = \pi/4$",
-    )
-    axis.plot(
-        delta,
         data.tangency_phi,
-        color=plotting.ORANGE,
-        linestyle="--",
-        label=r"tangency, $\psi = \pi/4 - \delta/2$",
+        color="0.35",
+        linestyle=":",
+        linewidth=0.8,
+        label=r"$r$ = const is characteristic, $\psi = \pi/4 - \delta/2$",
     )
     axis.plot(
         data.neutral_delta,
@@ -69,6 +67,15 @@ def draw_borders(axis: Axes, data: xr.Dataset) -> None:
         linewidth=1.6,
         label="neutral stability",
     )
+    if "symmetric_delta" in data:
+        axis.plot(
+            data.symmetric_delta,
+            data.symmetric_phi,
+            color=plotting.BLUE,
+            linewidth=1.2,
+            linestyle="--",
+            label="the same, symmetric disturbances only",
+        )
     axis.set_xlim(delta.min(), delta.max())
 
 

@@ -3,8 +3,8 @@
 import numpy as np
 import xarray as xr
 
-from hopper.stability.collocation import Half
 from hopper.stability.mesh_spectrum import HALVES
+from hopper.stability.paper_matrix import Half
 
 MODES = ("paper", "physical")
 

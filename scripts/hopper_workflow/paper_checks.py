@@ -25,15 +25,17 @@ def compared(
     By the names of :func:`table`, each of the given ``shape``.
     """
     found = [_by_the_paper(one, nodes, coarse_nodes, tolerance) for one in solutions]
+    ours = [linear_stability(one) for one in solutions]
     columns = {
-        "abscissa": [linear_stability(one).abscissa for one in solutions],
+        "abscissa": [one.abscissa for one in ours],
+        "symmetric": [one.symmetric[0] for one in ours],
         "as_worded": [one.as_worded if one else np.nan for one in found],
         "physical": [one.physical if one else np.nan for one in found],
     }
     values = {f"check_{name}": np.reshape(column, shape) for name, column in columns.items()}
     differences = {
-        f"check_difference_{name}": values[f"check_{name}"] - values["check_abscissa"]
-        for name in ("as_worded", "physical")
+        f"check_difference_{name}": values[f"check_{name}"] - values[f"check_{counterpart}"]
+        for name, counterpart in (("as_worded", "abscissa"), ("physical", "symmetric"))
     }
     return values | differences
 
@@ -43,10 +45,11 @@ def table(over: str) -> Table:
     algorithm = "abscissa by the paper's algorithm, {}, NaN if nothing converged"
     meanings = {
         "abscissa": "abscissa from low modes and line at the checked point",
+        "symmetric": "the same for symmetric disturbances",
         "as_worded": algorithm.format("both parities"),
         "physical": algorithm.format("the flow's parity"),
         "difference_as_worded": "check_as_worded - check_abscissa",
-        "difference_physical": "check_physical - check_abscissa",
+        "difference_physical": "check_physical - check_symmetric",
     }
     return tuple(number(f"check_{name}", text, over) for name, text in meanings.items())
 

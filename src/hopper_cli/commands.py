@@ -4,17 +4,16 @@ import json
 from argparse import Namespace
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
-from math import isfinite, radians
+from math import degrees, isfinite, radians
 from pathlib import Path
 from typing import Any
 
+from hopper.arrays import Complex
 from hopper.assessment.limits import assess_limits, tangency_coefficient
-from hopper.assessment.neutral import assess_neutral, largest_neutral_coefficient
+from hopper.assessment.neutral import Interval, NeutralPoint, assess_neutral
 from hopper.assessment.radial import assess_radial
 from hopper.assessment.stability import assess_stability
-from hopper.assessment.summary import assess
-from hopper.domain.neutral import NoNeutralPointError
-from hopper.errors import ConvergenceError, HopperError, TangencyError, WallFrictionError
+from hopper.errors import ConvergenceError, HopperError, WallFrictionError
 from hopper.problem import as_geometry
 from hopper.quantity import Quantity
 from hopper.radial.solution import solve_radial
@@ -74,56 +73,99 @@ def _radial(options: Namespace) -> str:
 def _stability(options: Namespace) -> str:
     case = _case(options)
     hopper = case.hopper
-    solution = solve_radial(hopper, case.wall.friction_angle)
     try:
-        found = assess_stability(solution)
-    except (TangencyError, ConvergenceError) as error:
-        limit = tangency_coefficient(hopper)
-        if limit is None and assess(hopper, 0.0).outcome == "tangent_characteristic":
-            raise HopperError(f"{error}; not even a smooth wall has a verdict") from None
-        raise _explained(error, "a verdict", limit) from None
+        solution = solve_radial(hopper, case.wall.friction_angle)
+        found = assess_stability(solution, options.disturbances, options.modes)
+    except ConvergenceError as error:
+        limit = assess_limits(hopper).coefficient
+        raise _explained(error, "a radial solution", limit) from None
     _write(options, case, found)
     rows = tables.rows(found, assessments.STABILITY)
     rows += tables.rows({"tangency": tangency_coefficient(hopper)}, assessments.TANGENCY)
-    modes = found.result.eigenvalues
+    shown = {
+        parity: (modes.eigenvalues[: options.modes], modes.errors[: options.modes])
+        for parity, modes in found.modes.items()
+    }
+    notes = [
+        f"only {values.size} low {parity} modes are resolved"
+        for parity, (values, _) in shown.items()
+        if values.size < options.modes
+    ]
     if options.json:
+        pairs = {_JSON[parity]: _pairs(values) for parity, (values, _) in shown.items()}
         return _json(
             case.echoed(),
             rows,
-            eigenvalues=[[mode.real, mode.imag] for mode in modes.tolist()],
+            **(dict.fromkeys(_JSON.values()) | pairs),
             governed_by=found.result.governed_by,
+            parity=found.result.parity,
             verdict=found.verdict,
+            disturbances="any" if "asymmetric" in shown else "symmetric",
             error_estimate=found.abscissa.error,
-            errors={"eigenvalues": found.mode_errors.tolist()},
+            notes=notes,
+            errors={_JSON[parity]: errors.tolist() for parity, (_, errors) in shown.items()},
         )
     cells = [
-        (f"eigenvalue {number}", text.complex_with_error(mode, error))
-        for number, (mode, error) in enumerate(zip(modes, found.mode_errors, strict=True), 1)
+        (f"{parity} eigenvalue {number}", text.complex_with_error(value, error))
+        for parity, pairs in shown.items()
+        for number, (value, error) in enumerate(zip(*pairs, strict=True), start=1)
     ]
     return _text(
         f"Linear stability: {case}",
         cells + text.number_cells(rows),
-        [sentences.stability_sentence(found)],
+        [*notes, sentences.stability_sentence(case.geometry, found)],
     )
+
+
+_JSON = {"symmetric": "eigenvalues", "asymmetric": "asymmetric_eigenvalues"}
+
+
+def _pairs(eigenvalues: Complex) -> list[list[float]]:
+    return [[mode.real, mode.imag] for mode in eigenvalues.tolist()]
 
 
 def _neutral(options: Namespace) -> str:
     geometry, half_angle = as_geometry(options.geometry), radians(options.half_angle)
     wall = Wall.of(options.mu, options.phi)
-    try:
-        found = assess_neutral(geometry, half_angle, wall.friction_angle)
-    except NoNeutralPointError as error:
-        limit = largest_neutral_coefficient(geometry, half_angle)
-        raise _explained(error, "a neutral delta", limit) from None
+    found = assess_neutral(geometry, half_angle, wall.friction_angle, options.disturbances)
     rows = tables.rows(found, assessments.NEUTRAL)
     inputs = {"geometry": geometry, "half_angle_deg": options.half_angle, **asdict(wall)}
     if options.json:
-        return _json(inputs, rows, governed_by=found.governed_by, error_estimate=rows[0].error)
+        first = found.points[0] if found.points else None
+        return _json(
+            inputs,
+            rows,
+            neutral_points=[_point(point) for point in found.points],
+            stable_intervals_deg=[_interval(interval) for interval in found.intervals],
+            governed_by=first and first.governed_by,
+            parity=first and first.parity,
+            error_estimate=first and rows[0].error,
+        )
     return _text(
         f"Neutral stability: {geometry}, half angle {options.half_angle:g} deg, {wall}",
-        text.number_cells(rows),
-        [sentences.neutral_sentence(found)],
+        text.neutral_cells(found),
+        [sentences.neutral_sentence(geometry, found)],
     )
+
+
+def _point(point: NeutralPoint) -> dict[str, Any]:
+    return {
+        "delta_deg": degrees(point.delta.value),
+        "error_deg": degrees(point.delta.error),
+        "governed_by": point.governed_by,
+        "parity": point.parity,
+    }
+
+
+def _interval(interval: Interval) -> dict[str, Any]:
+    return {
+        "lower": degrees(interval.lower.value),
+        "upper": degrees(interval.upper.value),
+        "lower_error": degrees(interval.lower.error),
+        "upper_error": degrees(interval.upper.error),
+        "lower_end": interval.lower_end,
+        "upper_end": interval.upper_end,
+    }
 
 
 def _case(options: Namespace) -> Case:

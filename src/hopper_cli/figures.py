@@ -43,7 +43,7 @@ def write(path: Path, case: Case, found: Part) -> None:
         else:
             figure = Figure(figsize=(7.1, 4.0), layout="constrained")
             line = found.result.line.abscissa
-            drawing.draw_spectrum(figure.subplots(), found.spectrum, line)
+            drawing.draw_spectrum(figure.subplots(), found.spectrum.eigenvalues, line)
         figure.suptitle(str(case))
         with replacing(path) as temporary:
             figure.savefig(temporary, metadata=_METADATA[path.suffix.lower()])

@@ -17,6 +17,7 @@ from hopper.errors import HopperError, InvalidParameterError
 from hopper_cli.errors import UsageError
 from hopper_cli.outputs import FileError, checked
 
+_FEWEST_MODES, _MOST_MODES = 1, 40
 _NO_ANSWER, _USAGE, _INTERRUPTED, _BROKEN_PIPE = 1, 2, 130, 141
 
 EXAMPLES = {
@@ -106,9 +107,25 @@ def _parser() -> argparse.ArgumentParser:
             "--plot", type=Path, metavar="FILE", help="draw them in FILE.png, .pdf or .svg"
         )
         command.add_argument("--force", action="store_true", help="overwrite existing files")
-    neutral = _command(commands, "neutral", "the internal friction at which stability changes")
+    stability.add_argument(
+        "--modes",
+        type=_count,
+        default=6,
+        metavar="N",
+        help="low modes of each parity wanted, default %(default)s",
+    )
+    neutral = _command(
+        commands, "neutral", "the internal frictions at which stability changes, and what is stable"
+    )
     _add_geometry(neutral)
     _add_half_angle_and_wall(neutral)
+    for command in (stability, neutral):
+        command.add_argument(
+            "--disturbances",
+            choices=["symmetric", "any"],
+            help="default: any for wedges; of cones only symmetric ones are known, which are "
+            "axisymmetric and without swirl",
+        )
     return parser
 
 
@@ -162,6 +179,13 @@ def _coefficient(text: str) -> float:
     return _number(text, "a number from 0 to 1000", lambda value: 0 <= value <= 1000)
 
 
+def _count(text: str) -> int:
+    meaning = f"a whole number from {_FEWEST_MODES} to {_MOST_MODES}"
+    return int(
+        _number(text, meaning, lambda n: _FEWEST_MODES <= n <= _MOST_MODES and n.is_integer())
+    )
+
+
 def _check(options: argparse.Namespace) -> None:
     """Find what the parser cannot: options that do not go together, files, missing libraries.
 
@@ -170,6 +194,11 @@ def _check(options: argparse.Namespace) -> None:
     UsageError
         If an option is wrong.
     """
+    if getattr(options, "disturbances", None) == "any" and options.geometry == "cone":
+        raise UsageError(
+            "argument --disturbances: asymmetric disturbances are singular at the apex of a cone: "
+            "use symmetric or --geometry wedge"
+        )
     if options.command == "neutral":
         return
     if options.model == "von-mises" and options.geometry == "wedge":

@@ -2,9 +2,10 @@
 
 from math import degrees
 
-from hopper.assessment.neutral import NeutralPoint
+from hopper.assessment.neutral import NeutralAssessment
 from hopper.assessment.radial import RadialAssessment
 from hopper.assessment.stability import StabilityAssessment
+from hopper_cli.text import described
 
 _ENDS = {
     "fold": "where a second branch of solutions begins",
@@ -26,17 +27,33 @@ def radial_sentence(radial: RadialAssessment) -> str:
     return f"{sentence}."
 
 
-def stability_sentence(found: StabilityAssessment) -> str:
-    """Return the verdict in words."""
-    if found.verdict == "neutral":
-        return "Neutral: the abscissa is zero within its error."
-    change = "decay" if found.verdict == "stable" else "grow"
-    cause = {"mode": "a low mode", "line": "the asymptotic line"}[found.result.governed_by]
-    verdict = found.verdict.capitalize()
-    return f"{verdict}: perturbations {change} down the hopper, governed by {cause}."
+def stability_sentence(geometry: str, found: StabilityAssessment) -> str:
+    """Return the verdict in words, and which disturbances it is about."""
+    known = (
+        "axisymmetric disturbances without swirl"
+        if geometry == "cone"
+        else "disturbances, symmetric or not"
+        if "asymmetric" in found.modes
+        else "symmetric disturbances"
+    )
+    cause = described(found.result.governed_by, found.result.parity)
+    words = {
+        "neutral": f"Neutral to {known}: the abscissa is zero within its error.",
+        "stable": f"Stable: {known} decay down the hopper, governed by {cause}.",
+        "stable_symmetric_only": "Stable to symmetric disturbances only: asymmetric ones grow down "
+        f"the hopper, governed by {cause}.",
+        "unstable": f"Unstable: {known} can grow down the hopper, governed by {cause}.",
+    }
+    return words[found.verdict]
 
 
-def neutral_sentence(found: NeutralPoint) -> str:
+def neutral_sentence(geometry: str, found: NeutralAssessment) -> str:
     """Return the answer in words."""
-    delta = f"{degrees(found.delta.value):.6g} deg"
-    return f"Stable above delta = {delta}, unstable just below."
+    to = " to axisymmetric disturbances without swirl" if geometry == "cone" else ""
+    if not found.intervals:
+        return f"No delta is stable{to} at this wall friction."
+    intervals = [
+        f"{degrees(one.lower.value):.6g} to {degrees(one.upper.value):.6g} deg"
+        for one in found.intervals
+    ]
+    return f"Stable{to} where delta is from {' and from '.join(intervals)}."

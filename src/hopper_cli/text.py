@@ -1,8 +1,13 @@
 """Answers for people: aligned tables, numbers with as many digits as their errors allow."""
 
 from collections.abc import Sequence
-from math import floor, log10
+from math import degrees, floor, log10
 
+from hopper.assessment.neutral import NeutralAssessment
+from hopper.domain.neutral_points import IntervalEnd
+from hopper.quantity import Quantity
+from hopper.stability.collocation import Parity
+from hopper.stability.modes import Governor
 from hopper_data.tables import Row, Variable
 
 _DIGITS = 10
@@ -53,3 +58,45 @@ def table(cells: Sequence[tuple[str, str]]) -> str:
     """Return two aligned columns."""
     width = max(len(label) for label, _ in cells)
     return "\n".join(f"  {label:<{width}}  {number}" for label, number in cells)
+
+
+def neutral_cells(found: NeutralAssessment) -> list[tuple[str, str]]:
+    """Return a line for each neutral delta and each stable interval, in degrees."""
+    points = [
+        (
+            "neutral delta",
+            f"{_angle(point.delta)} deg, {described(point.governed_by, point.parity)}",
+        )
+        for point in found.points
+    ]
+    intervals = [
+        (
+            "stable delta",
+            f"{_angle(one.lower)} ({ENDS[one.lower_end]}) to "
+            f"{_angle(one.upper)} deg ({ENDS[one.upper_end]})",
+        )
+        for one in found.intervals
+    ]
+    return points + intervals or [("stable delta", "none")]
+
+
+def described(governor: Governor, parity: Parity | None) -> str:
+    """Return what governs in words."""
+    return "the asymptotic line" if parity is None else f"{_ARTICLE[parity]} {governor}"
+
+
+_ARTICLE: dict[Parity, str] = {"symmetric": "a symmetric", "asymmetric": "an asymmetric"}
+ENDS: dict[IntervalEnd, str] = {
+    "neutral": "neutral",
+    "fold": "limit of friction: a fold",
+    "wall": "the wall is as rough as the material",
+    "interior": "limit of friction: psi is singular inside",
+    "axis": "limit of friction: no stress on the axis",
+    "stress_not_positive": "no positive stress beyond",
+    "not_converged": "not resolved beyond",
+    "steepest_looked_at": "not looked at beyond",
+}
+
+
+def _angle(angle: Quantity) -> str:
+    return with_error(degrees(angle.value), degrees(angle.error))

@@ -7,7 +7,8 @@ from hopper.assessment.stability import StabilityAssessment
 from hopper.assessment.summary import OUTCOMES, Assessment
 from hopper.radial.friction_limit import End
 from hopper_data.radial import STRESS, THETA, angles
-from hopper_data.tables import Table, angle, complex_number, flag, number, within
+from hopper_data.stability import GOVERNED_BY, PARITY, eigenvalues
+from hopper_data.tables import Table, angle, flag, number, within
 
 Part = RadialAssessment | StabilityAssessment
 
@@ -23,7 +24,7 @@ RADIAL: Table = (
 )
 PROFILES: Table = (*THETA, *STRESS, number("u", "radial velocity", "theta", scale="u(0)"))
 TANGENCY: Table = (
-    number("mu_tangency", "mu beyond which stability is not defined", source="tangency"),
+    number("mu_tangency", "mu beyond which r = const is no surface for data", source="tangency"),
 )
 LIMITS: Table = (
     number("mu_fold", "mu at the fold", source="fold"),
@@ -34,31 +35,40 @@ LIMITS: Table = (
 STABILITY: Table = (
     number("line", "asymptotic line of Re(lambda)"),
     number("abscissa", "supremum of Re(lambda)"),
+    number("abscissa_symmetric", "the same, symmetric disturbances", source="symmetric"),
+    number("abscissa_asymmetric", "the same, asymmetric disturbances", source="asymmetric"),
     number(
         "transient_amplification",
-        "transient amplification",
+        "transient amplification in tilted time, L2",
         source="transient.amplification",
         scale="exp(-t abscissa)",
     ),
     number(
-        "transient_growth", "transient growth, largest norm of exp(-tM)", source="transient.growth"
+        "transient_growth",
+        "transient growth in tilted time, L2: largest norm of exp(-tM)",
+        source="transient.growth",
     ),
-    number("kappa", "condition number of the modes", source="transient.condition"),
-    number("transient_modes", "number of modes followed", source="transient.modes"),
+    number(
+        "kappa", "condition number of the modes in tilted time, L2", source="transient.condition"
+    ),
+    number("transient_modes", "number of symmetric modes followed", source="transient.modes"),
 )
-SPECTRUM: Table = (
-    complex_number("eigenvalue", "the eigenvalue", "mode", source="spectrum"),
-    number("eigenvalue_error", "error of the eigenvalue", "mode", source="spectrum_errors"),
+SPECTRUM: Table = within("spectrum", eigenvalues("symmetric"))
+NEUTRAL: Table = (
+    angle("delta_neutral_deg", "smallest neutral angle of internal friction", source="delta"),
 )
-GOVERNED_BY = flag(
-    "governed_by", "what sets the abscissa", ("mode", "line"), source="result.governed_by"
+# The governor's names are those of the result within.
+STABILITY_WHOLE: Table = (
+    *SPECTRUM,
+    *within("modes.asymmetric", eigenvalues("low asymmetric", "asymmetric_")),
+    *within("result", (GOVERNED_BY, PARITY)),
+    *STABILITY,
 )
-NEUTRAL: Table = (angle("delta_neutral_deg", "neutral angle of internal friction", source="delta"),)
 WHOLE: Table = (
     flag("outcome", "verdict of stability, or why there is none", OUTCOMES),
     *within("profiles", PROFILES),
     *within("radial", RADIAL),
-    *within("stability", (*SPECTRUM, GOVERNED_BY, *STABILITY)),
+    *within("stability", STABILITY_WHOLE),
     flag(
         "limit_end",
         "what ends the solutions at mu_limit",
@@ -93,7 +103,7 @@ def described(found: Part | Assessment) -> tuple[Any, Table]:
             *within("radial", RADIAL),
         )
     if isinstance(found, StabilityAssessment):
-        return found, (*SPECTRUM, GOVERNED_BY, *STABILITY)
+        return found, STABILITY_WHOLE
     return {**vars(found), "profiles": found.radial and profiles(found.radial)}, WHOLE
 
 

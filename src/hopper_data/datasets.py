@@ -62,7 +62,8 @@ def _described(variable: Variable, values: Any, over: tuple[str, ...]) -> dict[s
         if part.kind == "flag":
             numbers = _codes(numbers, part.meanings)
             attributes["flag_values"] = np.arange(len(part.meanings), dtype=np.int8)
-            attributes["flag_meanings"] = " ".join(part.meanings)
+            words = [word.replace(" ", "_") for word in part.meanings]
+            attributes["flag_meanings"] = " ".join(words)
         elif part.kind != "text":
             attributes["units"] = part.units
         found[part.name] = over, numbers, attributes
@@ -72,5 +73,7 @@ def _described(variable: Variable, values: Any, over: tuple[str, ...]) -> dict[s
 def _codes(values: Any, meanings: tuple[str, ...]) -> np.ndarray:
     codes = np.asarray(values)
     if codes.dtype.kind in "UO":
-        codes = np.reshape([meanings.index(str(word)) for word in codes.flat], codes.shape)
+        codes = np.reshape(
+            [meanings.index(str(word or "none")) for word in codes.flat], codes.shape
+        )
     return codes.astype(np.int8)

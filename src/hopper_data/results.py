@@ -9,7 +9,7 @@ from hopper.assessment.radial import RadialAssessment
 from hopper.assessment.stability import StabilityAssessment
 from hopper.assessment.summary import Assessment
 from hopper.domain.borders import Borders
-from hopper.domain.neutral import NeutralCurve
+from hopper.domain.neutral_curve import NeutralCurve
 from hopper.domain.stability_map import Sweep
 from hopper.radial.solution import RadialSolution
 from hopper.radial.velocity import VelocityField

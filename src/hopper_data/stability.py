@@ -4,21 +4,38 @@ from dataclasses import replace
 
 import xarray as xr
 
+from hopper.stability.collocation import PARITIES
 from hopper.stability.convergence_filter import REASONS
 from hopper.stability.mesh_spectrum import HALVES, MeshSpectrum
-from hopper_data.tables import Table, complex_number, flag, number
+from hopper.stability.modes import GOVERNORS
+from hopper_data.tables import Table, complex_number, flag, number, within
 
 _NO_YES = ("no", "yes")
 HALF = flag("half", "parity: physical is sigma1 even and psi1 odd", HALVES, "mode")
 
+GOVERNED_BY = flag("governed_by", "what the abscissa is due to", GOVERNORS)
+PARITY = flag("parity", "parity of the mode that governs", PARITIES)
+
+
+def eigenvalues(which: str, prefix: str = "") -> Table:
+    """Return the table of :class:`hopper.stability.modes.Modes`, variables named with a prefix."""
+    name, over = f"{prefix}eigenvalue", f"{prefix}mode"
+    return (
+        complex_number(name, f"{which} mode, Im >= 0", over, "eigenvalues"),
+        number(f"{name}_error", f"error of {name}", over, "errors"),
+    )
+
+
 STABILITY: Table = (
-    complex_number("eigenvalue", "low mode with Im >= 0, by modulus", "mode", "eigenvalues"),
+    *within("modes.symmetric", eigenvalues("low symmetric")),
+    *within("modes.asymmetric", eigenvalues("low asymmetric", "asymmetric_")),
     number("line", "abscissa of the asymptotic line", source="line.abscissa"),
-    number("line_spacing", "spacing of modes in Im", source="line.spacing"),
+    number("line_spacing", "spacing of modes of one parity in Im", source="line.spacing"),
     number("line_error", "error of the line", source="line.error_estimate"),
     number("abscissa", "supremum of Re(lambda)"),
     number("abscissa_error", "error of the abscissa", source="error_estimate"),
-    flag("governed_by", "what the abscissa is due to", ("mode", "line")),
+    GOVERNED_BY,
+    PARITY,
 )
 MESH_SPECTRUM: Table = (
     complex_number("eigenvalue", "eigenvalue of M by modulus", "mode", "eigenvalues"),

@@ -136,7 +136,7 @@ def _lookup(result: Any, path: list[str]) -> Any:
     name, *rest = path
     if isinstance(result, list | tuple):
         return [_lookup(item, path) for item in result]
-    return _lookup(result[name] if isinstance(result, Mapping) else getattr(result, name), rest)
+    return _lookup(result.get(name) if isinstance(result, Mapping) else getattr(result, name), rest)
 
 
 def _in_degrees(values: Any) -> Any:

@@ -6,6 +6,8 @@ try:
     configuration.check(config, SCHEMA)
 except configuration.ConfigurationError as error:
     raise WorkflowError(str(error)) from None
+for line in configuration.drop_outdated(config, SCHEMA):
+    logger.warning(line)
 
 FIGURES = []
 COSTS = requests.read_costs(ROOT / "resources/benchmarks.tsv")

@@ -39,8 +39,8 @@ class Limits:
     mass_flow : Quantity or None
         phi of sigma_0 -> 0, radians; None but for Mohr-Coulomb cones with sin(delta) >= 1/3.
     tangency : Quantity or None
-        mu at which psi reaches pi/4 - delta/2, where linear stability ends; None where it does
-        not, and for von Mises materials.
+        mu at which psi reaches pi/4 - delta/2, where a characteristic is tangent to the arc
+        r = const; None where it does not, and for von Mises materials.
     """
 
     friction: FrictionLimit | None

@@ -15,6 +15,7 @@ from hopper.radial.solution import RadialSolution
 from hopper.spectral.transient import ModalBasis, condition_number, propagator_norm
 from hopper.stability.collocation import Parity
 from hopper.stability.modes import (
+    LEAST_MODES,
     Disturbances,
     LinearStability,
     Modes,
@@ -125,19 +126,40 @@ def assess_stability(
     HopperError
         As :func:`hopper.stability.modes.linear_stability`.
     """
-    result = linear_stability(solution, disturbances, count)
-    modes = {parity: _with_fields(solution, parity, found) for parity, found in result.modes.items()}
-    suprema = {parity: _supremum(result, found) for parity, found in modes.items()}
+    result, modes, suprema = _with_errors(solution, disturbances, count)
     spectrum = _resolved_modes(solution, modes["symmetric"])
     return StabilityAssessment(
         result,
         modes,
-        abscissa=max(suprema.values(), key=lambda supremum: supremum.value),
+        abscissa=_largest(suprema),
         symmetric=suprema["symmetric"],
         asymmetric=suprema.get("asymmetric"),
         spectrum=spectrum,
         transient=_transient(solution, spectrum.eigenvalues, result),
     )
+
+
+def abscissa_with_error(
+    solution: RadialSolution, disturbances: Disturbances | None = None
+) -> tuple[LinearStability, Quantity]:
+    """Return what decides the stability of a solution, and its abscissa with error."""
+    result, _, suprema = _with_errors(solution, disturbances)
+    return result, _largest(suprema)
+
+
+def _with_errors(
+    solution: RadialSolution, disturbances: Disturbances | None, count: int = LEAST_MODES
+) -> tuple[LinearStability, dict[Parity, Modes], dict[Parity, Quantity]]:
+    """Return the stability, its modes with what the fields leave in them, and each supremum."""
+    result = linear_stability(solution, disturbances, count)
+    modes = {
+        parity: _with_fields(solution, parity, found) for parity, found in result.modes.items()
+    }
+    return result, modes, {name: _supremum(result, found) for name, found in modes.items()}
+
+
+def _largest(suprema: dict[Parity, Quantity]) -> Quantity:
+    return max(suprema.values(), key=lambda supremum: supremum.value)
 
 
 def _with_fields(solution: RadialSolution, parity: Parity, found: Modes) -> Modes:

@@ -8,7 +8,7 @@ from typing import Literal, get_args
 
 from hopper.assessment.limits import Limits, assess_limits
 from hopper.assessment.radial import RadialAssessment, assess_radial
-from hopper.assessment.stability import StabilityAssessment, Verdict, assess_stability
+from hopper.assessment.stability import StabilityAssessment, assess_stability
 from hopper.brief import brief
 from hopper.errors import (
     ConvergenceError,
@@ -18,13 +18,10 @@ from hopper.errors import (
     NoRadialSolutionError,
 )
 from hopper.problem import Hopper
+from hopper.stability.modes import Verdict
 
 Outcome = Literal[
-    Verdict,
-    "no_radial_solution",
-    "non_positive_stress",
-    "not_converged",
-    "not_formulated",
+    Verdict, "no_radial_solution", "non_positive_stress", "not_converged", "not_formulated"
 ]
 OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
 

@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 
 from hopper.errors import ConvergenceError, InvalidParameterError
-from hopper.problem import Geometry, Hopper
+from hopper.problem import Geometry, Hopper, as_geometry, require_angle
 from hopper.radial.collocation import Closure, Member, solve
 from hopper.radial.friction_limit import fold_near
 from hopper.radial.members import physical_member
@@ -21,6 +21,7 @@ from hopper.stability.modes import (
     Disturbances,
     LinearStability,
     linear_stability,
+    parities_among,
     upper_eigenvalues,
 )
 
@@ -28,6 +29,8 @@ from hopper.stability.modes import (
 _FOLD_SIZE, _FOLD_MODES = 54, 5
 # Root finding, in radians: well below 1e-6 degrees.
 ROOT_TOLERANCE = 1e-12
+# Where no equation holds at an edge, only that modes cease to be resolved.
+COARSE = 1e-4
 # A secant's last step: the next one would be far smaller.
 _LAST_STEP = 1e-9
 _SECANT_STEPS = 12
@@ -38,12 +41,22 @@ Missing = Literal["no_radial_solution", "no_wall_angle", "non_positive_stress", 
 
 @dataclass
 class Hoppers:
-    """Hoppers of one shape and half angle (radians); the last member solved starts the next."""
+    """Hoppers of one shape and half angle (radians); the last member solved starts the next.
+
+    Raises
+    ------
+    InvalidParameterError
+        If the half angle is out of range, or asymmetric disturbances of a cone are asked for.
+    """
 
     geometry: Geometry
     half_angle: float
     disturbances: Disturbances | None = None
     last: Member | None = field(default=None, repr=False)
+
+    def __post_init__(self) -> None:
+        require_angle("half_angle", self.half_angle)
+        parities_among(self.disturbances, as_geometry(self.geometry))
 
     def hopper(self, delta: float) -> Hopper:
         """Return the hopper with internal friction delta (radians)."""

@@ -21,7 +21,8 @@ from hopper.domain.neutral_points import neutral_delta
 from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.problem import Geometry, is_real
 from hopper.radial.collocation import Member
-from hopper.stability.modes import Disturbances, Governor, LinearStability, Parity
+from hopper.stability.collocation import Parity
+from hopper.stability.modes import Disturbances, Governor, LinearStability
 
 CurveEnd = Literal["fold", "largest_delta", "not_converged"]
 CURVE_ENDS: tuple[CurveEnd, ...] = get_args(CurveEnd)

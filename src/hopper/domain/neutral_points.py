@@ -11,9 +11,9 @@ import numpy as np
 from scipy.optimize import brentq
 
 from hopper.brief import brief
-from hopper.domain.growth import ROOT_TOLERANCE, Hoppers, Missing, root_near
+from hopper.domain.growth import COARSE, ROOT_TOLERANCE, Hoppers, Missing, root_near
 from hopper.errors import ConvergenceError, HopperError, NoRadialSolutionError
-from hopper.problem import Geometry, as_geometry, require_angle
+from hopper.problem import Geometry, require_angle
 from hopper.radial.friction_limit import End, friction_limit
 from hopper.stability.modes import Disturbances, LinearStability
 
@@ -26,7 +26,6 @@ INTERVAL_ENDS: tuple[IntervalEnd, ...] = (
 _STEP, _STEEPEST = radians(1), radians(89)
 # Distance from an edge at which the abscissa is looked at.
 _INSIDE = 1e-7
-_COARSE = 1e-4
 
 
 class NoNeutralPointError(HopperError):
@@ -95,33 +94,40 @@ def stable_deltas(
     Raises
     ------
     InvalidParameterError
-        If an angle is out of range.
+        If an angle is out of range, or asymmetric disturbances of a cone are asked for.
+    NoRadialSolutionError
+        If no hopper has a radial solution at this wall friction.
     """
-    as_geometry(geometry)
-    require_angle("half_angle", half_angle)
     require_angle("friction_angle", friction_angle, zero_allowed=True)
     hoppers = Hoppers(geometry, half_angle, disturbances)
     neutral: list[float] = []
     intervals: list[StableInterval] = []
-    for run in _runs(hoppers, friction_angle, step):
-        start: tuple[float, IntervalEnd] | None = None
-        if run[0].abscissa < 0:
-            start = run[0].delta, run[0].edge or "steepest_looked_at"
-        for before, after in pairwise(run):
-            if (before.abscissa < 0) == (after.abscissa < 0):
-                continue
-            delta = _between(hoppers, friction_angle, before, after)
-            neutral.append(delta)
-            if start is None:
-                start = delta, "neutral"
-            else:
-                intervals.append(StableInterval(start[0], delta, start[1], "neutral"))
-                start = None
-        if start is not None:
-            last = run[-1]
-            end = last.edge or "steepest_looked_at"
-            intervals.append(StableInterval(start[0], last.delta, start[1], end))
+    runs = list(_runs(hoppers, friction_angle, step))
+    if not runs:
+        raise NoRadialSolutionError(
+            f"no {geometry} of half angle {degrees(half_angle):.6g} deg has a resolved radial "
+            f"solution at phi = {degrees(friction_angle):.6g} deg: lower the wall friction",
+            None,
+        )
+    for run in runs:
+        marks = list(_marks(hoppers, friction_angle, run))
+        neutral += [delta for delta, end in marks if end == "neutral"]
+        for lower, upper in zip(marks[::2], marks[1::2], strict=True):
+            intervals.append(StableInterval(lower[0], upper[0], lower[1], upper[1]))
     return StableDeltas(friction_angle, tuple(neutral), tuple(intervals))
+
+
+def _marks(
+    hoppers: Hoppers, friction_angle: float, run: list[_Sample]
+) -> Iterator[tuple[float, IntervalEnd]]:
+    """Yield the lower and upper ends of stable intervals in turn."""
+    if run[0].abscissa < 0:
+        yield run[0].delta, run[0].edge or "steepest_looked_at"
+    for before, after in pairwise(run):
+        if (before.abscissa < 0) != (after.abscissa < 0):
+            yield _between(hoppers, friction_angle, before, after), "neutral"
+    if run[-1].abscissa < 0:
+        yield run[-1].delta, run[-1].edge or "steepest_looked_at"
 
 
 def neutral_delta(
@@ -148,11 +154,11 @@ def neutral_delta(
     ------
     InvalidParameterError
         If an angle is out of range.
+    NoRadialSolutionError
+        If no hopper has a radial solution at this wall friction.
     NoNeutralPointError
         If no delta separates unstable from stable hoppers at this friction.
     """
-    as_geometry(geometry)
-    require_angle("half_angle", half_angle)
     require_angle("friction_angle", friction_angle, zero_allowed=True)
     if guess is not None:
         hoppers = Hoppers(geometry, half_angle, disturbances)
@@ -203,7 +209,7 @@ def _edge(hoppers: Hoppers, phi: float, inside: float, outside: float, reason: M
             return _Sample(edge, result.abscissa, label)
     # Where modes cease to be resolved before: bisection, as nothing there is a root.
     result = hoppers.at_wall(inside, phi)
-    while abs(inside - outside) > _COARSE:
+    while abs(inside - outside) > COARSE:
         middle = (inside + outside) / 2
         attempt = hoppers.at_wall(middle, phi)
         if isinstance(attempt, LinearStability):

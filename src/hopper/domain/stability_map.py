@@ -14,8 +14,14 @@ from hopper.radial.family import family_from
 from hopper.radial.friction_limit import friction_limit_from
 from hopper.radial.members import physical_member
 from hopper.radial.solution import solution_of
-from hopper.stability.collocation import PARITIES
-from hopper.stability.modes import GOVERNORS, Disturbances, LinearStability, linear_stability
+from hopper.stability.collocation import PARITIES, Parity
+from hopper.stability.modes import (
+    GOVERNORS,
+    Disturbances,
+    Governor,
+    LinearStability,
+    linear_stability,
+)
 
 REGIONS = (
     "stable",
@@ -26,6 +32,8 @@ REGIONS = (
     "non_positive_stress",
     "not_converged",
 )
+GOVERNED_BY = ("none", *GOVERNORS)
+PARITY = ("none", *PARITIES)
 _STABLE, _SYMMETRIC, _UNSTABLE, _NO_SOLUTION, _NO_WALL, _NON_POSITIVE, _NOT_CONVERGED = range(7)
 # Relative errors of the governing mode, and of the others, which must only be seen to lie below.
 _TOLERANCE, _OTHERS = 1e-9, 1e-5
@@ -47,9 +55,11 @@ class Sweep:
         The same for each parity; the second is NaN where it was not looked at.
     line : array, shape (n,)
         Abscissa of the asymptotic line.
+    psi_max : array, shape (n,)
+        Largest psi on the radial solution's nodes, radians.
     governed_by, parity : integer arrays, shape (n,)
-        Index into ``GOVERNORS`` of :mod:`hopper.stability.modes`, and into ``PARITIES`` of
-        :mod:`hopper.stability.collocation`; -1 without a verdict, and where the line governs.
+        What the abscissa is due to, index into ``GOVERNED_BY`` and ``PARITY``; 0 without a verdict,
+        and the parity also where the line governs.
     """
 
     friction_angle: Array
@@ -59,6 +69,7 @@ class Sweep:
     symmetric: Array
     asymmetric: Array
     line: Array
+    psi_max: Array
     governed_by: NDArray[np.int8]
     parity: NDArray[np.int8]
 
@@ -85,8 +96,8 @@ def sweep_friction(
         require_angle("friction_angle", angle, zero_allowed=True)
     region = np.full(angles.size, _NO_SOLUTION, dtype=np.int8)
     region[angles > hopper.material.largest_friction_angle(hopper.delta)] = _NO_WALL
-    values = np.full((5, angles.size), np.nan)
-    codes = np.full((2, angles.size), -1, dtype=np.int8)
+    values = np.full((6, angles.size), np.nan)
+    codes = np.zeros((2, angles.size), dtype=np.int8)
     last: Member | None = None
     for i in np.flatnonzero(region == _NO_SOLUTION):
         try:
@@ -104,7 +115,8 @@ def sweep_friction(
         except ConvergenceError:
             region[i] = _NOT_CONVERGED
         else:
-            region[i], values[:, i], codes[:, i] = _row(result)
+            region[i], values[:-1, i], codes[:, i] = _row(result)
+            values[-1, i] = solution.psi.max()
     return Sweep(angles, region, *values, *codes)
 
 
@@ -139,5 +151,8 @@ def _row(result: LinearStability) -> tuple[int, tuple[float, ...], tuple[int, in
         result.line.abscissa,
     )
     region = _STABLE if result.stable else _SYMMETRIC if numbers[2] < 0 else _UNSTABLE
-    parity = -1 if result.parity is None else PARITIES.index(result.parity)
-    return region, numbers, (GOVERNORS.index(result.governed_by), parity)
+    return region, numbers, _codes(result.governed_by, result.parity)
+
+
+def _codes(governor: Governor, parity: Parity | None) -> tuple[int, int]:
+    return GOVERNED_BY.index(governor), PARITY.index(parity or "none")

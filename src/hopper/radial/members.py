@@ -130,10 +130,12 @@ def physical_member(
         member = solve(hopper, closure, guess)
         if member is not None and member.psi_wall_by_tau > 0:
             return member
-    before = start and start.hopper == hopper
-    before = before and start.psi_wall_by_tau > 0 and start.psi_wall < psi_wall
+    if start and not (start.hopper == hopper and start.psi_wall_by_tau > 0):
+        start = None
+    if start and start.psi_wall >= psi_wall:
+        start = None
     try:
-        found = members_with_wall_angle(hopper, psi_wall, start if before else None)
+        found = members_with_wall_angle(hopper, psi_wall, start)
     except NoRadialSolutionError:
         return None
     return found[0] if found else None

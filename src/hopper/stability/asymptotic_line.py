@@ -63,18 +63,22 @@ def asymptotic_line(
     ConvergenceError
         If the quadrature does not reach 1e-6; psi is then too close to its singular value.
     """
-    line, done = _by_quadrature(solution, *first) if first else (None, False)
+    line, done = _by_quadrature(solution, *(first or _on_grid(solution, _SIZES[0])))
     for size in _SIZES:
         if done:
             break
-        grid = mode_grid(solution, size, "symmetric")
-        line, done = _by_quadrature(solution, grid, on_grids(solution, [grid])[0])
+        line, done = _by_quadrature(solution, *_on_grid(solution, size))
     if line.error_estimate > _ACCEPTABLE * max(1.0, abs(line.abscissa)):
         raise ConvergenceError(
             f"asymptotic line not resolved: error {line.error_estimate:.1e}; psi is too close to "
             "its singular value, lower the wall friction"
         )
     return line
+
+
+def _on_grid(solution: RadialSolution, size: int) -> tuple[Grid, TiltedCoefficients]:
+    grid = mode_grid(solution, size, "symmetric")
+    return grid, on_grids(solution, [grid])[0]
 
 
 def _by_quadrature(

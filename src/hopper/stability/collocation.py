@@ -12,7 +12,7 @@ import numpy as np
 
 from hopper.arrays import Array
 from hopper.errors import InvalidParameterError
-from hopper.problem import Geometry, Hopper
+from hopper.problem import Geometry
 from hopper.radial.grid import Grid, half_grid, layer_clustering
 from hopper.radial.solution import RadialSolution
 from hopper.stability.tilted import TiltedCoefficients, on_grids
@@ -51,7 +51,7 @@ def tilted_matrix(solution: RadialSolution, m: int, parity: Parity = "symmetric"
         If m < 3, the parity is unknown or singular at the apex of a cone, or the material is not
         Mohr-Coulomb.
     """
-    require_disturbance(solution.hopper, parity)
+    require_disturbance(solution.hopper.geometry, parity)
     if m < 3:
         raise InvalidParameterError(f"m = {m!r} half-grid points: give at least 3")
     grid = mode_grid(solution, m, parity)
@@ -59,8 +59,8 @@ def tilted_matrix(solution: RadialSolution, m: int, parity: Parity = "symmetric"
     return assemble(grid, at)
 
 
-def require_disturbance(hopper: Hopper, parity: str) -> None:
-    """Check that disturbances of a parity are smooth in a hopper.
+def require_disturbance(geometry: Geometry, parity: str) -> None:
+    """Check that disturbances of a parity are smooth at the apex.
 
     Raises
     ------
@@ -69,9 +69,9 @@ def require_disturbance(hopper: Hopper, parity: str) -> None:
     """
     if parity not in PARITIES:
         raise InvalidParameterError(f"parity = {parity!r} is unknown: use {' or '.join(PARITIES)}")
-    if parity not in parities_of(hopper.geometry):
+    if parity not in parities_of(geometry):
         raise InvalidParameterError(
-            "asymmetric disturbances are singular at the apex of a cone: use symmetric, or a wedge"
+            "asymmetric disturbances are singular at the apex of a cone: use symmetric"
         )
 
 

@@ -17,6 +17,7 @@ import numpy as np
 from hopper.arrays import Array, Complex
 from hopper.brief import brief
 from hopper.errors import ConvergenceError, InvalidParameterError
+from hopper.problem import Geometry
 from hopper.radial.solution import RadialSolution
 from hopper.stability.asymptotic_line import AsymptoticLine, asymptotic_line
 from hopper.stability.collocation import (
@@ -36,7 +37,7 @@ Verdict = Literal["stable", "stable_symmetric_only", "unstable", "neutral"]
 
 _SIZES = (12, 16, 24, 36, 54, 80, 120)
 _TOLERANCE = 1e-10
-_LEAST_MODES = 3
+LEAST_MODES = 3
 # The estimate of a mode's error is an order of magnitude.
 _SAFETY = 10
 _EPS = float(np.finfo(float).eps)
@@ -129,7 +130,7 @@ class LinearStability:
 def linear_stability(
     solution: RadialSolution,
     disturbances: Disturbances | None = None,
-    count: int = _LEAST_MODES,
+    count: int = LEAST_MODES,
     tolerance: float = _TOLERANCE,
     others: float | None = None,
 ) -> LinearStability:
@@ -154,7 +155,7 @@ def linear_stability(
     ConvergenceError
         If fewer than three low modes or the line converge.
     """
-    parities = _parities(solution, disturbances)
+    parities = parities_among(disturbances, solution.hopper.geometry)
     ladders = {parity: [mode_grid(solution, m, parity) for m in _SIZES[:2]] for parity in parities}
     line_grid = mode_grid(solution, _SIZES[2], "symmetric")
     grids = [grid for ladder in ladders.values() for grid in ladder]
@@ -164,19 +165,26 @@ def linear_stability(
     modes = {}
     for parity in parities:
         start = [_upper(next(matrices)) for _ in ladders[parity]]
-        wanted = _Wanted(max(count, _LEAST_MODES), tolerance, others or tolerance, line.abscissa)
+        wanted = _Wanted(max(count, LEAST_MODES), tolerance, others or tolerance, line.abscissa)
         modes[parity] = _low_modes(solution, parity, start, wanted)
     return _judged(modes, line)
 
 
-def _parities(solution: RadialSolution, disturbances: str | None) -> tuple[Parity, ...]:
+def parities_among(disturbances: str | None, geometry: Geometry) -> tuple[Parity, ...]:
+    """Return the parities to look at: by default any of wedges, the symmetric one of cones.
+
+    Raises
+    ------
+    InvalidParameterError
+        If asymmetric disturbances of a cone are asked for, or it is neither "symmetric" nor "any".
+    """
     if disturbances not in (None, "symmetric", "any"):
         raise InvalidParameterError(
             f"disturbances = {disturbances!r} is unknown: use symmetric or any"
         )
     if disturbances == "any":
-        require_disturbance(solution.hopper, "asymmetric")
-    found = parities_of(solution.hopper.geometry)
+        require_disturbance(geometry, "asymmetric")
+    found = parities_of(geometry)
     return found[:1] if disturbances == "symmetric" else found
 
 
@@ -218,7 +226,7 @@ def _low_modes(
         coarse = fine
         unresolved = np.flatnonzero(error > wanted.others)
         converged = min(int(unresolved[0]) if unresolved.size else fine.size, wanted.count)
-        if converged < _LEAST_MODES:
+        if converged < LEAST_MODES:
             continue
         # Rounding of the collocation matrix: a few units of its condition, about size ** 2.
         relative = _SAFETY * (error[:converged] + solution.error_estimate) + _EPS * size**2
@@ -229,7 +237,7 @@ def _low_modes(
             return best
     if best is None:
         raise ConvergenceError(
-            f"fewer than {_LEAST_MODES} low {parity} modes converged at {size} half-grid points; "
+            f"fewer than {LEAST_MODES} low {parity} modes converged at {size} half-grid points; "
             "psi is too close to its singular value, lower the wall friction"
         )
     return best
