@@ -112,35 +112,55 @@ class Hoppers:
         return linear_stability(solution_of(member), self.disturbances)
 
 
-def root_near(at: Callable[[float], object], guess: float) -> float | None:
-    """Return a delta (radians) near a guess at which ``at`` has a vanishing abscissa, None if not.
+@dataclass(frozen=True)
+class Root:
+    """Where the spectral abscissa vanishes along a line, and its slope there."""
 
-    ``at`` returns a LinearStability, or something else where there is none.
+    at: float
+    slope: float
+
+
+def root_near(
+    at: Callable[[float], object], guess: float, slope: float | None = None
+) -> Root | None:
+    """Return where the abscissa vanishes near a guess, None if nowhere.
+
+    ``at`` returns a LinearStability for a place on a line, such as delta (radians), or something
+    else where there is none; ``slope`` is that of a neighbouring root.
     """
 
-    def growth(delta: float) -> float:
-        result = at(delta)
+    def growth(place: float) -> float:
+        result = at(place)
         if isinstance(result, LinearStability):
             return result.abscissa
         raise ConvergenceError(str(result))
 
-    return root(growth, guess)
+    return root(growth, guess, slope)
 
 
 def root(
-    growth: Callable[[float], float], guess: float, tolerance: float = _LAST_STEP
-) -> float | None:
-    """Converge to a zero by the secant method, from a second point on either side, or give up."""
-    for side in (-_PROBE, _PROBE):
+    growth: Callable[[float], float],
+    guess: float,
+    slope: float | None = None,
+    tolerance: float = _LAST_STEP,
+) -> Root | None:
+    """Converge to a zero by the secant method, or give up.
+
+    The first step is by the slope, or failing that from a second point on either side.
+    """
+    for side in (slope, -_PROBE, _PROBE):
+        if side is None:
+            continue
         try:
-            before, at_before = guess + side, growth(guess + side)
-            here, at_here = guess, growth(guess)
+            before, at_before = guess, growth(guess)
+            here = guess - at_before / side if side is slope else guess + side
             for _ in range(_SECANT_STEPS):
-                following = here - at_here * (here - before) / (at_here - at_before)
+                at_here = growth(here)
+                slant = (at_here - at_before) / (here - before)
+                following = here - at_here / slant
                 if abs(following - here) < tolerance:
-                    return following
-                before, at_before = here, at_here
-                here, at_here = following, growth(following)
+                    return Root(following, slant)
+                before, at_before, here = here, at_here, following
         except (ConvergenceError, InvalidParameterError, ZeroDivisionError):
             continue
     return None

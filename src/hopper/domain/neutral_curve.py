@@ -8,7 +8,7 @@ looks.
 
 from dataclasses import dataclass
 from functools import partial
-from math import exp, log
+from math import exp, log, prod
 from typing import Literal, Self, get_args
 
 import numpy as np
@@ -16,7 +16,7 @@ from scipy.optimize import brentq
 
 from hopper.arrays import Array
 from hopper.brief import brief
-from hopper.domain.growth import ROOT_TOLERANCE, Hoppers, Missing, root, root_near
+from hopper.domain.growth import ROOT_TOLERANCE, Hoppers, root, root_near
 from hopper.domain.neutral_points import neutral_delta
 from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.problem import Geometry, is_real
@@ -27,9 +27,11 @@ from hopper.stability.modes import Disturbances, Governor, LinearStability
 CurveEnd = Literal["fold", "largest_delta", "not_converged"]
 CURVE_ENDS: tuple[CurveEnd, ...] = get_args(CurveEnd)
 
-# Smallest step, relative to the largest, and the largest in log(tau).
+# Smallest step, relative to the largest; the largest along the arc, and the unit of its length in
+# delta (radians) and log(tau).
 _LEAST_STEP = 1e-3
-_TAU_STEP = 0.05
+_ARC_STEP = 0.08
+_UNIT = np.array([0.05, 1.0])
 # Last secant step in delta for a corner, radians: rounding of the fold leaves a tenth of it.
 _CORNER_TOLERANCE = 1e-8
 
@@ -71,17 +73,21 @@ class NeutralCurve:
 
 @dataclass(frozen=True)
 class _Point:
-    delta: float
     member: Member
     result: LinearStability
+
+    @property
+    def delta(self) -> float:
+        return self.member.hopper.delta
 
     @property
     def friction_angle(self) -> float:
         return self.member.hopper.material.friction_angle(self.delta, self.member.psi_wall)
 
     @property
-    def log_tau(self) -> float:
-        return log(self.member.tau)
+    def place(self) -> Array:
+        """Delta and log tau, in units in which the curve is as long in both."""
+        return np.array([self.delta, log(self.member.tau)]) / _UNIT
 
 
 def neutral_curve(
@@ -117,10 +123,10 @@ def neutral_curve(
         raise InvalidParameterError(f"step = {step!r} must be a positive number, in radians")
     hoppers = Hoppers(geometry, half_angle, disturbances)
     start = neutral_delta(geometry, half_angle, 0.0, disturbances=disturbances)
-    points = [_at(hoppers, start, 0.0)]
+    points = [_point(hoppers, hoppers.at_wall(start, 0.0))]
     end = _follow_phi(hoppers, points, step, largest_delta)
     if end is None:
-        end = _follow_tau(hoppers, points)
+        end = _follow_arc(hoppers, points)
     return NeutralCurve(
         np.array([point.friction_angle for point in points]),
         np.array([point.delta for point in points]),
@@ -130,44 +136,47 @@ def neutral_curve(
     )
 
 
-def _at(hoppers: Hoppers, delta: float, friction_angle: float) -> _Point:
-    return _point(hoppers, delta, hoppers.at_wall(delta, friction_angle))
-
-
-def _point(hoppers: Hoppers, delta: float, result: LinearStability | Missing) -> _Point:
+def _point(hoppers: Hoppers, result: object) -> _Point:
     if not isinstance(result, LinearStability) or hoppers.last is None:
-        raise ConvergenceError(f"neutral point lost at delta = {np.degrees(delta):.6g} deg")
-    return _Point(delta, hoppers.last, result)
+        raise ConvergenceError(f"neutral point lost: {result}")
+    return _Point(hoppers.last, result)
 
 
 def _follow_phi(
     hoppers: Hoppers, points: list[_Point], step: float, largest_delta: float
 ) -> CurveEnd | None:
     """Add points at growing phi; None if the fold is near."""
-    current = step
+    current, slope = step, None
     while current > _LEAST_STEP * step:
         last = points[-1]
         hoppers.last, phi = last.member, last.friction_angle + current
-        delta = root_near(partial(hoppers.at_wall, friction_angle=phi), _extrapolated(points, phi))
-        point = _at(hoppers, delta, phi) if delta is not None and delta > phi else None
-        # What is neutral in a cone and real is the zero mode of a fold.
-        if point is None or (hoppers.geometry, point.result.governed_by) == ("cone", "real mode"):
-            current /= 2
+        at_wall = partial(hoppers.at_wall, friction_angle=phi)
+        guess = _extrapolated([(point.friction_angle, point.delta) for point in points], phi)
+        found, point = root_near(at_wall, guess, slope), None
+        if found and found.at > phi:
+            point = _point(hoppers, at_wall(found.at))
+        if found is None or point is None or _at_fold(hoppers, point):
+            current, slope = current / 2, None
             continue
         if point.delta > largest_delta:
             points.append(_at_delta(hoppers, largest_delta, last, phi))
             return "largest_delta"
         points.append(point)
-        current = min(2 * current, step)
+        current, slope = min(2 * current, step), found.slope
     return None if hoppers.geometry == "cone" else "not_converged"
 
 
-def _extrapolated(points: list[_Point], phi: float) -> float:
-    if len(points) == 1:
-        return points[-1].delta
-    before, last = points[-2:]
-    slope = (last.delta - before.delta) / (last.friction_angle - before.friction_angle)
-    return last.delta + slope * (phi - last.friction_angle)
+def _at_fold(hoppers: Hoppers, point: _Point) -> bool:
+    """Whether what is neutral is the zero mode of a fold, as all that is real in a cone."""
+    return hoppers.geometry == "cone" and point.result.governed_by == "real mode"
+
+
+def _extrapolated(known: list[tuple[float, float]], x: float) -> float:
+    """Return y at x of the polynomial through the last three (x, y), or as many as there are."""
+    at = known[-3:]
+    return sum(
+        y * prod((x - other) / (here - other) for other, _ in at if other != here) for here, y in at
+    )
 
 
 def _at_delta(hoppers: Hoppers, delta: float, below: _Point, above: float) -> _Point:
@@ -178,25 +187,29 @@ def _at_delta(hoppers: Hoppers, delta: float, below: _Point, above: float) -> _P
         return result.abscissa if isinstance(result, LinearStability) else np.inf
 
     phi = brentq(growth, below.friction_angle, above, xtol=ROOT_TOLERANCE)
-    return _at(hoppers, delta, phi)
+    return _point(hoppers, hoppers.at_wall(delta, phi))
 
 
-def _follow_tau(hoppers: Hoppers, points: list[_Point]) -> CurveEnd:
-    """Add points at growing tau up to the fold, and the corner there."""
-    step = _TAU_STEP
-    while step > _LEAST_STEP * _TAU_STEP:
+def _follow_arc(hoppers: Hoppers, points: list[_Point]) -> CurveEnd:
+    """Add points along the arc of the curve up to the fold, and the corner there.
+
+    Near the corner phi turns back, and in narrow cones so does tau.
+    """
+    step, slope = _ARC_STEP, None
+    while step > _LEAST_STEP * _ARC_STEP:
         last = points[-1]
-        hoppers.last, log_tau = last.member, last.log_tau + step
-        slope = 0.0
-        if len(points) > 1:
-            slope = (last.delta - points[-2].delta) / (last.log_tau - points[-2].log_tau)
-        at_tau = partial(hoppers.with_tau, tau=exp(log_tau))
-        delta = root_near(at_tau, last.delta + slope * step)
-        if delta is None:
-            step /= 2
+        hoppers.last = last.member
+        along = last.place - points[-2].place if len(points) > 1 else np.array([0.0, 1.0])
+        along /= np.hypot(*along)
+        at = partial(_beside, hoppers, last.place + step * along, np.array([-along[1], along[0]]))
+        found = root_near(at, 0.0, slope)
+        # A root farther off than the step is long may lie behind.
+        result = at(found.at) if found and abs(found.at) < step else None
+        if found is None or not isinstance(result, LinearStability):
+            step, slope = step / 2, None
             continue
-        point = _point(hoppers, delta, at_tau(delta))
-        if point.member.psi_wall_by_tau <= 0:
+        slope, point = found.slope, _point(hoppers, result)
+        if point.member.psi_wall_by_tau <= 0 or _at_fold(hoppers, point):
             break
         points.append(point)
     try:
@@ -206,14 +219,20 @@ def _follow_tau(hoppers: Hoppers, points: list[_Point]) -> CurveEnd:
     return "fold"
 
 
+def _beside(hoppers: Hoppers, place: Array, normal: Array, distance: float) -> object:
+    """Return the stability at a distance from a place, both in the unit of ``_Point.place``."""
+    delta, log_tau = (place + distance * normal) * _UNIT
+    return hoppers.with_tau(float(delta), exp(log_tau))
+
+
 def _corner(hoppers: Hoppers, near: _Point) -> _Point:
     """Return the corner: a fold with no other growing mode, where the neutral curve arrives."""
     hoppers.last = near.member
-    delta = root(hoppers.at_fold, near.delta, _CORNER_TOLERANCE)
-    if delta is None:
+    found = root(hoppers.at_fold, near.delta, tolerance=_CORNER_TOLERANCE)
+    if found is None:
         raise ConvergenceError(f"corner not resolved near delta = {np.degrees(near.delta):.6g} deg")
-    hoppers.at_fold(delta)
-    return _point(hoppers, delta, near.result)
+    hoppers.at_fold(found.at)
+    return _point(hoppers, near.result)
 
 
 def corner(curve: NeutralCurve) -> tuple[float, float] | None:

@@ -164,7 +164,7 @@ def neutral_delta(
         hoppers = Hoppers(geometry, half_angle, disturbances)
         found = root_near(partial(hoppers.at_wall, friction_angle=friction_angle), guess)
         if found is not None:
-            return found
+            return found.at
     known = stable_deltas(geometry, half_angle, friction_angle, disturbances)
     if not known.neutral:
         least = (
