@@ -37,7 +37,8 @@ CHUNKS = 2
 def made_up(_hopper: object, phis: np.ndarray) -> Sweep:
     numbers = [np.random.default_rng(0).normal(size=phis.size) for _ in range(6)]
     codes = np.zeros(phis.size, dtype=np.int8)
-    return Sweep(phis, codes, *numbers, codes, codes)
+    a, b, c, d, e, f = numbers
+    return Sweep(phis, codes, a, b, c, d, e, f, codes, codes)
 
 
 def write_chunk(path: Path, side: int, chunk: int, chunks: int) -> None:

@@ -54,7 +54,7 @@ def _check(
 ) -> dict[str, Any]:
     # At given frictions, not at points of the curve, whose number depends on rounding.
     frictions = neutral.friction_angle[-1] * np.arange(points) / points
-    guesses = np.interp(frictions, neutral.friction_angle, neutral.delta)
+    guesses = neutral.first_delta(frictions)
     deltas = [
         neutral_delta(geometry, half_angle, phi, guess)
         for phi, guess in zip(frictions, guesses, strict=True)

@@ -2,7 +2,7 @@
 
 import logging
 from collections.abc import Sequence
-from math import ceil, radians
+from math import ceil, isnan, radians
 from typing import Any
 
 import numpy as np
@@ -50,10 +50,8 @@ def compute_domain_angle(
 def _neutral(curve: NeutralCurve, half_angle_deg: float, phi_deg: float) -> float:
     """Return the neutral delta at one wall friction, NaN above the curve."""
     phi = radians(phi_deg)
-    if phi > curve.friction_angle.max():
-        return float("nan")
-    guess = np.interp(phi, curve.friction_angle, curve.delta)
-    return neutral_delta("cone", radians(half_angle_deg), phi, float(guess))
+    guess = float(curve.first_delta(phi))
+    return guess if isnan(guess) else neutral_delta("cone", radians(half_angle_deg), phi, guess)
 
 
 _AREAS = ("whole", "reached")

@@ -1,6 +1,7 @@
 """Section 4: (4.1) as printed, smooth-wall deductions, d/dx for comparison, lasting oscillation."""
 
 import logging
+from collections.abc import Sequence
 from math import radians, sin
 from typing import Any
 
@@ -9,6 +10,7 @@ import xarray as xr
 
 from hopper_workflow import artifacts, jobs, ranges
 from hopper.evidence import first_derivative, smooth_operator
+from hopper.evidence.folds import FoldMode, fold_mode
 from hopper.evidence.printed import compare_linearised
 from hopper.problem import Geometry
 from hopper.spectral.transient import oscillation
@@ -32,6 +34,7 @@ def compute_linear_checks(
     tolerance: float,
     printed_at: dict[str, Any],
     smooth: dict[str, Any],
+    folds: dict[str, Any],
     windows: dict[str, Any],
     kept_modes: dict[str, dict[str, Any]],
 ) -> xr.Dataset:
@@ -42,6 +45,7 @@ def compute_linear_checks(
             solution_of("cone", *case, printed_at["mu"]), printed_at["points"]
         ),
         "smooth": _smooth(*case, **smooth),
+        "folds": _folds(**folds),
         "derivative": _first_derivative(nodes, coarse_nodes, tolerance),
         "oscillation": _oscillation((*case, mu), nodes, (wedge, cone), kept_modes, windows),
         "matrix": ["A", "B", "C"],
@@ -83,6 +87,16 @@ def _smooth(
         "real_below_onset": sum(real),
         "kummer_residual": smooth_operator.kummer_residual(wavenumber, half_angle, nodes),
     }
+
+
+def _folds(half_angles_deg: Sequence[float], deltas_deg: dict[str, float]) -> list[FoldMode]:
+    """Return the neutral modes of all hoppers that have a fold."""
+    hoppers = [
+        hopper_of("cone", delta, half_angle)
+        for half_angle in half_angles_deg
+        for delta in ranges.steps(**deltas_deg)
+    ]
+    return [mode for mode in map(fold_mode, hoppers) if mode]
 
 
 def _first_derivative(nodes: int, coarse_nodes: int, tolerance: float) -> dict[str, float]:
@@ -162,6 +176,17 @@ TABLE = (
                 "number of real eigenvalues of (4.9) below it, at any half angle",
             ),
             number("kummer_residual", "residual of (4.10)"),
+        ),
+    ),
+    *within(
+        "folds",
+        (
+            number("fold_modulus", "least |lambda| at a fold", "fold", "modulus"),
+            number("fold_modulus_error", "error of it", "fold", "error"),
+            number(
+                "fold_before", "growing real modes at more stress on the axis", "fold", "before"
+            ),
+            number("fold_behind", "growing real modes at less", "fold", "behind"),
         ),
     ),
     *within(

@@ -18,7 +18,7 @@ from hopper.radial.friction_limit import friction_limit
 from hopper.radial.solution import radial_solutions
 from hopper.radial.velocity import solve_velocity
 from hopper.stability.tilted import tangency_angle
-from hopper.yield_conditions import VON_MISES, YieldCondition, yield_condition
+from hopper.yield_conditions import MOHR_COULOMB, VON_MISES, YieldCondition, yield_condition
 from hopper_data.datasets import dataset
 from hopper_data.inputs import hopper_of
 from hopper_data.tables import Table, angle, in_degrees, number, text, within
@@ -46,6 +46,7 @@ def compute_model_checks(
         },
         "over_delta": _over_delta([yield_condition(model) for model in models], deltas, psi_points),
         "tangency_psi": tangency_angle(radians(delta_deg)),
+        "singular_psi": MOHR_COULOMB.singular_angle(radians(delta_deg)),
         "model": models,
         "mu": mu,
         "delta": deltas,
@@ -126,7 +127,8 @@ TABLE: Table = (
             in_degrees("psi", "Sokolovskii angle", "psi"),
         ),
     ),
-    angle("tangency_psi", "psi at the tangency of a characteristic"),
+    angle("tangency_psi", "psi at which a characteristic is tangent to r = const"),
+    angle("mohr_coulomb_singular_psi", "psi at which (3.3) is singular", source="singular_psi"),
 )
 AXES: Table = (
     text("model", "yield condition", "model"),

@@ -1,5 +1,6 @@
 """Check config.yaml against the schema before any job starts."""
 
+import copy
 import math
 from collections.abc import Iterator, Mapping
 from functools import cache
@@ -52,20 +53,25 @@ def check(config: Mapping[str, Any], schema_path: str | Path) -> None:
         raise ConfigurationError(f"config key '{key}': {problem}")
 
 
-def drop_outdated(config: dict[str, Any], schema_path: str | Path) -> list[str]:
-    """Remove keys that the schema calls deprecated, and return a line for each."""
-    return list(_dropped(config, _schema(schema_path), "config key '"))
+def bring_up_to_date(config: dict[str, Any], schema_path: str | Path) -> list[str]:
+    """Add what an older configuration lacks, remove what it need not have; a line for the latter.
+
+    Defaults and deprecated keys are those of the schema.
+    """
+    return list(_updated(config, _schema(schema_path), ""))
 
 
-def _dropped(part: Any, schema: Mapping[str, Any], prefix: str) -> Iterator[str]:
+def _updated(part: dict[str, Any], schema: Mapping[str, Any], prefix: str) -> Iterator[str]:
     for key, known in schema.get("properties", {}).items():
-        if not isinstance(part, dict) or key not in part:
+        if "default" in known:
+            part.setdefault(key, copy.deepcopy(known["default"]))
+        if key not in part:
             continue
         if known.get("deprecated"):
             del part[key]
-            yield f"{prefix}{key}' {known['description']}"
-        else:
-            yield from _dropped(part[key], known, f"{prefix}{key}.")
+            yield f"config key '{prefix}{key}' {known['description']}"
+        elif isinstance(part[key], dict):
+            yield from _updated(part[key], known, f"{prefix}{key}.")
 
 
 def require_schema(

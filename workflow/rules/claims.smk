@@ -61,6 +61,7 @@ rule compute_linear_checks:
         **mesh_of(LINEAR["spectrum"]),
         printed_at=LINEAR["printed_at"],
         smooth=LINEAR["smooth"],
+        folds=LINEAR["folds"],
         windows=LINEAR["windows"],
         kept_modes=PSEUDO["modes"],
     script:

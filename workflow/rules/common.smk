@@ -6,7 +6,7 @@ try:
     configuration.check(config, SCHEMA)
 except configuration.ConfigurationError as error:
     raise WorkflowError(str(error)) from None
-for line in configuration.drop_outdated(config, SCHEMA):
+for line in configuration.bring_up_to_date(config, SCHEMA):
     logger.warning(line)
 
 FIGURES = []

@@ -199,14 +199,15 @@ def one_field_for_each_friction(models: xr.Dataset) -> Finding:
 
 def solutions_can_be_linearised(models: xr.Dataset) -> Finding:
     largest = values(models, "psi_max", model="mohr-coulomb")
-    tangency = number(models, "tangency_psi")
+    tangency, singular = number(models, "tangency_psi"), number(models, "mohr_coulomb_singular_psi")
     text = ", ".join(
         f"mu = {mu:g}: {psi:.2f} deg" for mu, psi in zip(values(models, "mu"), largest, strict=True)
     )
     return counted(
-        int(np.sum(largest < tangency)),
+        int(np.sum(largest < singular)),
         largest.size,
-        f"Largest psi at {text}; the tangency is at {tangency:.2f} deg.",
+        f"Largest psi at {text}; singular is {singular:.2f} deg. Beyond {tangency:.2f} deg t = log "
+        "r is no time, but a tilted time is, with the same eigenvalues.",
     )
 
 

@@ -12,6 +12,7 @@ from math import exp, log, prod
 from typing import Literal, Self, get_args
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from hopper.arrays import Array
@@ -58,6 +59,12 @@ class NeutralCurve:
     end: CurveEnd
 
     __repr__ = brief("friction_angle deg", "delta deg", "end")
+
+    def first_delta(self, friction_angle: ArrayLike) -> Array:
+        """Return the least delta on the curve at wall frictions, interpolated; NaN above it."""
+        rising = slice(0, int(np.argmax(self.friction_angle)) + 1)
+        known = self.friction_angle[rising], self.delta[rising]
+        return np.interp(np.asarray(friction_angle, dtype=float), *known, right=np.nan)
 
     def thinned(self) -> Self:
         """Return every second point, and the last: for an error estimate."""

@@ -26,7 +26,7 @@ from hopper.radial.family import (
     past_fold,
     smooth_wall_member,
 )
-from hopper.radial.grid import half_grid
+from hopper.radial.grid import Grid, half_grid
 from hopper.radial.mass_flow import limiting_wall_angle
 
 End = Literal["fold", "wall", "interior", "axis"]
@@ -110,7 +110,17 @@ def fold_near(hopper: Hopper, start: Member) -> Member | None:
 
     ``start`` may be of a hopper close to this one.
     """
-    grid = half_grid(SIZE, hopper.half_angle, start.grid.clustering)
+    near = _fold_on(hopper, half_grid(SIZE, hopper.half_angle, start.grid.clustering), start)
+    if near is None:
+        return None
+    resolved = neighbour(near, Closure("tau", near.tau))
+    # Where the stress on the axis is small the mesh moves the fold.
+    fold = _fold_on(hopper, resolved.grid, resolved)
+    return fold and neighbour(fold, Closure("tau", fold.tau))
+
+
+def _fold_on(hopper: Hopper, grid: Grid, start: Member) -> Member | None:
+    """Return the fold on one grid by the secant method in log(tau), None if that fails."""
     u, log_tau = start.on(grid), log(start.tau)
     before, at_before, curvature = log_tau + _FOLD_PROBE, np.nan, np.nan
     for _ in range(_FOLD_STEPS):
@@ -125,7 +135,7 @@ def fold_near(hopper: Hopper, start: Member) -> Member | None:
         step = -slope / curvature if curvature < 0 else _FOLD_PROBE
         log_tau += float(np.clip(step, -0.5, 0.5))
         if abs(step) < _FOLD_TOLERANCE:
-            return neighbour(member, Closure("tau", exp(log_tau)))
+            return newton(hopper, grid, Closure("tau", exp(log_tau)), u, _LAST_STEP)
     return None
 
 
