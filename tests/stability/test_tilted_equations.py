@@ -97,6 +97,14 @@ def closed_k():
     )
 
 
+def closed_j():
+    return -W * sp.Matrix([[0, 2 * S * SIGMA / COS2], [1 / (2 * S * SIGMA), 0]])
+
+
+def closed_a():
+    return sp.Matrix([[-S2, 2 * S * SIGMA], [COS2 / (2 * S * SIGMA), -S2]]) / Q
+
+
 def test_solved_for_the_slopes():
     n, k = solved_for_slopes()
     assert_equal(n, closed_n())
@@ -105,8 +113,7 @@ def test_solved_for_the_slopes():
 
 def test_tilted_time():
     """J in closed form, its speeds, and F' = J K where w = s + cos 2psi has cancelled."""
-    n, k = closed_n(), closed_k()
-    j = -W * sp.Matrix([[0, 2 * S * SIGMA / COS2], [1 / (2 * S * SIGMA), 0]])
+    n, k, j = closed_n(), closed_k(), closed_j()
     assert_equal(j * (n + S2 / W * sp.eye(2)), sp.eye(2))
     assert_equal([j.trace(), j.det()], [0, -(W**2) / COS2])
     brace = 2 * S * D_PSI * W + 2 * S * C2 + 3 * S**2 - 1 + K * S * (1 + S) * (1 + C2 + S2 * COT)
@@ -123,7 +130,7 @@ def test_both_characteristics_lie_on_either_side_of_the_tilted_surfaces():
 
 def test_section_3_is_the_same_problem_divided_by_the_singular_matrix():
     """A = N^-1 and F = N^-1 K are A and B + kC of section 3, slopes left free."""
-    a = sp.Matrix([[-S2, 2 * S * SIGMA], [COS2 / (2 * S * SIGMA), -S2]]) / Q
+    a = closed_a()
     b = sp.Matrix(
         [
             [(2 * S * D_PSI + 3 * S - C2) / Q, 2 * S * D_SIGMA / Q],
@@ -141,9 +148,8 @@ def test_section_3_is_the_same_problem_divided_by_the_singular_matrix():
 
 
 def test_both_forms_of_the_line_have_the_same_integrand():
-    n, k = closed_n(), closed_k()
-    j, a = (n + S2 / W * sp.eye(2)).inv(), n.inv()
-    f, cos = a * k, sp.sqrt(COS2)
+    k, a, j, cos = closed_k(), closed_a(), closed_j(), sp.sqrt(COS2)
+    f = a * k
     rho = 2 * S * SIGMA / cos
     p = (f[0, 0] + f[1, 1]) / 2
     q = (f[0, 1] / rho + rho * f[1, 0]) / 2

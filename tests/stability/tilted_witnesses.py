@@ -10,13 +10,12 @@ Parities: "symmetric" is sigma1 even, psi1 odd; "asymmetric" the reverse, for we
 
 from dataclasses import dataclass
 from itertools import pairwise
-from math import atan, pi, radians
+from math import pi
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
 from hopper.problem import Hopper
-from hopper.radial.solution import RadialSolution, solve_radial
 from tests.stability.tilted_equations import compiled
 
 SYMMETRIC, ASYMMETRIC = "symmetric", "asymmetric"
@@ -39,13 +38,6 @@ def base(solution) -> Base:
     return solution if isinstance(solution, Base) else Base(solution.hopper, solution.sigma_axis)
 
 
-def hopper_of(case) -> RadialSolution:
-    """Return the radial solution of an entry of the reference files (degrees; mu or phi)."""
-    hopper = Hopper(case["geometry"], radians(case["delta_deg"]), radians(case["half_angle_deg"]))
-    phi = atan(case["mu"]) if "mu" in case else radians(case["phi_deg"])
-    return solve_radial(hopper, phi, case.get("branch", "physical"))
-
-
 @dataclass(frozen=True)
 class AtWall:
     """Radial solution and regular disturbances at the wall; ``d_*`` by lambda, shape (n,)."""
@@ -58,6 +50,22 @@ class AtWall:
     d_psi1: np.ndarray
 
 
+def on_axis(member: Base, fastest: float = 1.0) -> tuple[float, list[float]]:
+    """Return theta, sigma and psi where integration starts: on the axis, in cones next to it.
+
+    ``fastest`` is the largest rate along theta that must not have turned anything there.
+    """
+    hopper, sigma = member.hopper, member.sigma_axis
+    k, f = hopper.curvature, compiled(hopper.curvature)
+    if k == 0:
+        return 0.0, [sigma, 0.0]
+    start = _START * min(1.0, sigma, 1 / fastest) * hopper.half_angle
+    # psi = p theta: its slope is prescribed as (psi' at psi = 0) - k p.
+    psi = f(hopper.s, start, sigma, 0.0)[1] / (1 + k) * start
+    # sigma is even: its slope grows linearly from the axis.
+    return start, [sigma + f(hopper.s, start, sigma, psi)[0] * start / 2, psi]
+
+
 def to_wall(solution, eigenvalues, parity=SYMMETRIC, rtol=_RTOL) -> AtWall:
     """Integrate the radial solution and the regular disturbance of each lambda to the wall.
 
@@ -65,7 +73,7 @@ def to_wall(solution, eigenvalues, parity=SYMMETRIC, rtol=_RTOL) -> AtWall:
     """
     member = base(solution)
     hopper = member.hopper
-    k, s, half_angle = hopper.curvature, hopper.s, hopper.half_angle
+    k, s = hopper.curvature, hopper.s
     assert parity == SYMMETRIC or k == 0, "asymmetric disturbances of cones are singular"
     lam = np.atleast_1d(np.asarray(eigenvalues, dtype=complex))
     f, n = compiled(k), lam.size
@@ -79,23 +87,18 @@ def to_wall(solution, eigenvalues, parity=SYMMETRIC, rtol=_RTOL) -> AtWall:
             m11 * da + m12 * db + n11 * a + n12 * b, m21 * da + m22 * db + n21 * a + n22 * b,
         ])  # fmt: skip
 
-    zero, one = np.zeros(n, dtype=complex), np.ones(n, dtype=complex)
-    start, y = 0.0, np.concatenate([[member.sigma_axis, 0], one, zero, zero, zero])
-    if parity == ASYMMETRIC:
-        y[2 : 2 + n], y[2 + n : 2 + 2 * n] = 0, 1
+    start, radial = on_axis(member, 1 + np.abs(lam).max())
+    u = np.zeros((4, n), dtype=complex)
+    u[0 if parity == SYMMETRIC else 1] = 1
     if k:
-        start = _START * min(1.0, member.sigma_axis, 1 / (1 + np.abs(lam).max())) * half_angle
-        # psi = p theta: its slope is prescribed as (psi' at psi = 0) - k p; alike for psi1.
-        y[1] = f(s, start, member.sigma_axis, 0.0)[1] / (1 + k) * start
-        at = f(s, start, member.sigma_axis, y[1].real)
-        y[2 + n : 2 + 2 * n] = (lam * at[4] - at[8]) / (1 + k) * start
-        y[2 + 3 * n :] = at[4] / (1 + k) * start
-        # sigma and sigma1 are even: their slopes grow linearly from the axis.
-        slope = slopes(start, y)
-        y[0] += slope[0] * start / 2
-        y[2 : 2 + n] += slope[2 : 2 + n] * start / 2
-        y[2 + 2 * n : 2 + 3 * n] += slope[2 + 2 * n : 2 + 3 * n] * start / 2
-    done = solve_ivp(slopes, (start, half_angle), y, "DOP853", rtol=rtol, atol=_ATOL)
+        # As psi and sigma of the radial solution: psi1 odd, sigma1 even.
+        _, _, _, _, n21, _, _, _, k21, _ = f(s, start, *radial)
+        u[1], u[3] = (lam * n21 - k21) / (1 + k) * start, n21 / (1 + k) * start
+        slope = slopes(start, np.concatenate([radial, u.ravel()]))[2:].reshape(4, n)
+        u[0] += slope[0] * start / 2
+        u[2] += slope[2] * start / 2
+    y = np.concatenate([radial, u.ravel()])
+    done = solve_ivp(slopes, (start, hopper.half_angle), y, "DOP853", rtol=rtol, atol=_ATOL)
     assert done.success, done.message
     end = done.y[:, -1]
     return AtWall(end[0].real, end[1].real, *end[2:].reshape(4, n))
@@ -103,17 +106,22 @@ def to_wall(solution, eigenvalues, parity=SYMMETRIC, rtol=_RTOL) -> AtWall:
 
 def shoot(solution, guess, parity=SYMMETRIC, rtol=_RTOL) -> complex:
     """Return the eigenvalue near ``guess``: Newton in lambda on psi1(theta_w) = 0."""
-    lam, last = complex(guess), np.inf
+    return complex(shoot_all(solution, [guess], parity, rtol)[0])
+
+
+def shoot_all(solution, guesses, parity=SYMMETRIC, rtol=_RTOL) -> np.ndarray:
+    """Return the eigenvalues near several guesses, shot together."""
+    lam, last = np.array(guesses, dtype=complex), np.inf
     for _ in range(40):
         wall = to_wall(solution, lam, parity, rtol)
-        step = wall.psi1[0] / wall.d_psi1[0]
-        lam -= step
-        size = abs(step) / max(1.0, abs(lam))
+        step = wall.psi1 / wall.d_psi1
+        lam = lam - step
+        size = float((np.abs(step) / np.maximum(1, np.abs(lam))).max())
         # Quadratic convergence: the error left is of the square of the step, down to rounding.
         if size < 1e-9 or (size < 1e-7 and size > last / 4):
             return lam
         last = size
-    raise AssertionError(f"shooting did not converge near {guess}: last step {size:.1e}")
+    raise AssertionError(f"shooting did not converge near {guesses}: last step {size:.1e}")
 
 
 def _boundary(low, high, panels):
@@ -129,46 +137,53 @@ def _boundary(low, high, panels):
     return np.concatenate(points), np.concatenate(weights)
 
 
-def moments(solution, low, high, parity=SYMMETRIC, panels=3) -> tuple[complex, complex]:
+def contour(solution, low, high, parity=SYMMETRIC) -> tuple[int, complex]:
     """Return number and sum of the eigenvalues in the rectangle, by the argument principle.
 
-    psi1(theta_w) is entire in lambda: (1 / 2 pi i) times the contour integrals of its logarithmic
-    derivative, and of that times lambda.
+    psi1(theta_w) is entire in lambda. Its winding number is added up from turns between points;
+    the points are dense enough when no turn is large and the integral of its logarithmic
+    derivative, over 2 pi i, says the same.
     """
-    points, weights = _boundary(complex(low), complex(high), panels)
-    wall = to_wall(solution, points, parity, rtol=1e-9)
-    density = weights * wall.d_psi1 / wall.psi1 / (2j * pi)
-    return density.sum(), (density * points).sum()
-
-
-def count(solution, low, high, parity=SYMMETRIC) -> int:
-    """Return the number of eigenvalues in the rectangle; refines until it is an integer."""
-    for panels in (3, 6, 12, 24, 48):
-        number = moments(solution, low, high, parity, panels)[0]
-        if abs(number - round(number.real)) < 1e-3:
-            return round(number.real)
+    for panels in (3, 6, 12, 24):
+        points, weights = _boundary(complex(low), complex(high), panels)
+        wall = to_wall(solution, points, parity, rtol=1e-9)
+        turns = np.angle(np.roll(wall.psi1, -1) / wall.psi1)
+        number = round(turns.sum() / (2 * pi))
+        density = weights * wall.d_psi1 / wall.psi1 / (2j * pi)
+        if np.abs(turns).max() < 1.6 and abs(density.sum() - number) < 1e-2:
+            return number, (density * points).sum()
     raise AssertionError(f"an eigenvalue lies on the boundary of {low} ... {high}")
 
 
 def modes(solution, low, high, parity=SYMMETRIC) -> np.ndarray:
     """Return all eigenvalues in the rectangle, by bisection down to single ones and Newton."""
-    low, high = complex(low), complex(high)
-    number = count(solution, low, high, parity)
+    number, total = contour(solution, low, high, parity)
+    return _modes(solution, complex(low), complex(high), parity, number, total)
+
+
+def _modes(solution, low, high, parity, number, total):
     if number == 0:
         return np.zeros(0, dtype=complex)
     if number == 1:
-        for panels in (6, 12, 24):
-            guess = moments(solution, low, high, parity, panels)[1]
-            found = shoot(solution, guess, parity)
-            inside = low.real < found.real < high.real and low.imag < found.imag < high.imag
-            if inside:
-                return np.array([found])
+        # The sum is the eigenvalue, but for the quadrature.
+        return np.array([shoot(solution, total, parity)])
+    size = high - low
     # Off the middle, where real eigenvalues of symmetric rectangles would lie.
-    size, part = high - low, 0.5377
-    if size.real > size.imag:
-        cut = low.real + part * size.real
-        halves = [(low, complex(cut, high.imag)), (complex(cut, low.imag), high)]
-    else:
-        cut = low.imag + part * size.imag
-        halves = [(low, complex(high.real, cut)), (complex(low.real, cut), high)]
-    return np.concatenate([modes(solution, *half, parity) for half in halves])
+    for part in (0.5377, 0.4291, 0.6413):
+        if size.real > size.imag:
+            upper = complex(low.real + part * size.real, high.imag)
+            lower = complex(upper.real, low.imag)
+        else:
+            lower = complex(low.real, low.imag + part * size.imag)
+            upper = complex(high.real, lower.imag)
+        try:
+            first = contour(solution, low, upper, parity)
+        except AssertionError:
+            continue
+        # What is not in the one part is in the other.
+        rest = number - first[0], total - first[1]
+        return np.concatenate([
+            _modes(solution, low, upper, parity, *first),
+            _modes(solution, lower, high, parity, *rest),
+        ])  # fmt: skip
+    raise AssertionError(f"eigenvalues not separated in {low} ... {high}")
