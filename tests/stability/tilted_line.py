@@ -13,7 +13,7 @@ from scipy.integrate import quad, solve_ivp
 from hopper.radial.solution import RadialSolution
 from tests.stability.tilted_chebyshev import coefficients
 from tests.stability.tilted_equations import compiled
-from tests.stability.tilted_witnesses import ASYMMETRIC, SYMMETRIC, base, on_axis, shoot
+from tests.stability.tilted_witnesses import ASYMMETRIC, SYMMETRIC, base, on_axis, shoot_all
 
 
 def _rate_and_slowness(n, k):
@@ -65,9 +65,8 @@ def high_modes(solution: RadialSolution, numbers, parity=SYMMETRIC):
     """
     line, spacing = line_by_quadrature(solution)
     offset = 0.25 * solution.hopper.curvature + (0.5 if parity == ASYMMETRIC else 0)
-    return np.array(
-        [shoot(solution, complex(line, spacing * (n + offset)), parity) for n in numbers]
-    )
+    guesses = line + 1j * spacing * (np.array(numbers) + offset)
+    return shoot_all(solution, guesses, parity, rtol=1e-11)
 
 
 def line_from_modes(solution: RadialSolution, numbers, parity=SYMMETRIC) -> tuple[float, float]:
