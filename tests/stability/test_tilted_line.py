@@ -5,10 +5,10 @@ import pytest
 
 from tests.stability.tilted_data import ELSEWHERE, ELSEWHERE_NAMES, name, radial, read
 from tests.stability.tilted_line import (
+    extrapolated,
     high_modes,
     line_along,
     line_by_quadrature,
-    line_from_modes,
 )
 from tests.stability.tilted_witnesses import ASYMMETRIC, SYMMETRIC
 
@@ -65,11 +65,11 @@ SLOW_PARAMS = [pytest.param(*entry, marks=pytest.mark.soak) for entry in SLOW]
 def test_line_is_the_limit_of_modes_as_one_over_the_square(hopper, parity, numbers):
     case = next(case for case in REFERENCE if name(case) == hopper)
     solution, line = radial(case), case["line"]
-    limit, error = line_from_modes(solution, numbers, parity)
+    modes = high_modes(solution, numbers, parity)
+    limit, error = extrapolated(modes)
     assert limit == pytest.approx(line, abs=error + 1e-10)
     assert error < 1e-3 * max(1, abs(line))
     # (Re lambda - Lambda) Im**2 tends to a constant: the order is two.
-    modes = high_modes(solution, numbers[-2:], parity)
-    lower, upper = (modes.real - line) * modes.imag**2
-    order = 2 - np.log(abs(upper / lower)) / np.log(modes.imag[1] / modes.imag[0])
+    lower, upper = (modes.real[1:] - line) * modes.imag[1:] ** 2
+    order = 2 - np.log(abs(upper / lower)) / np.log(modes.imag[2] / modes.imag[1])
     assert order == pytest.approx(2, abs=0.1)

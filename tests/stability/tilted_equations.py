@@ -48,7 +48,7 @@ def radial_equations():
 def base_slopes():
     """Return sigma' and psi' of a radial solution as the two equations prescribe them."""
     matrix, right = sp.linear_eq_to_matrix(radial_equations(), [D_SIGMA, D_PSI])
-    return tuple(matrix.inv() * right)
+    return tuple(matrix.adjugate() * right / matrix.det())
 
 
 @lru_cache(maxsize=1)
@@ -74,7 +74,8 @@ def linearised():
 def solved_for_slopes():
     """Return N and K, with the slopes of the radial solution left as symbols."""
     e1, e2, e0 = linearised()
-    return e2.inv() * e1, e2.inv() * e0
+    inverse = e2.adjugate() / e2.det()
+    return inverse * e1, inverse * e0
 
 
 @lru_cache(maxsize=2)

@@ -69,12 +69,11 @@ def high_modes(solution: RadialSolution, numbers, parity=SYMMETRIC):
     return shoot_all(solution, guesses, parity, rtol=1e-11)
 
 
-def line_from_modes(solution: RadialSolution, numbers, parity=SYMMETRIC) -> tuple[float, float]:
-    """Return the limit of Re(lambda), extrapolated in 1 / Im**2, and an estimate of its error.
+def extrapolated(modes) -> tuple[float, float]:
+    """Return the limit of Re(lambda) from modes, by powers of 1 / Im**2, and an error estimate.
 
     The error is the difference to the extrapolation without the lowest mode, of one order less.
     """
-    modes = high_modes(solution, numbers, parity)
     x, y = modes.imag**-2.0, modes.real
     best, other = (np.polyfit(x[i:], y[i:], len(x) - 1 - i)[-1] for i in (0, 1))
     return best, abs(best - other)

@@ -78,30 +78,30 @@ def to_wall(solution, eigenvalues, parity=SYMMETRIC, rtol=_RTOL) -> AtWall:
     lam = np.atleast_1d(np.asarray(eigenvalues, dtype=complex))
     f, n = compiled(k), lam.size
 
+    both = np.concatenate([lam, lam])
+
     def slopes(theta, y):
-        sigma, psi, n11, n12, n21, n22, k11, k12, k21, k22 = f(s, theta, y[0].real, y[1].real)
-        a, b, da, db = y[2:].reshape(4, n)
-        m11, m12, m21, m22 = lam * n11 - k11, lam * n12 - k12, lam * n21 - k21, lam * n22 - k22
-        return np.concatenate([
-            [sigma, psi], m11 * a + m12 * b, m21 * a + m22 * b,
-            m11 * da + m12 * db + n11 * a + n12 * b, m21 * da + m22 * db + n21 * a + n22 * b,
-        ])  # fmt: skip
+        values = f(s, theta, y[0].real, y[1].real)
+        # Columns of u: the disturbances, then their derivatives by lambda.
+        u = y[2:].reshape(2, 2 * n)
+        in_time, algebraic = np.array(values[2:]).reshape(2, 2, 2) @ u
+        u_theta = both * in_time - algebraic
+        u_theta[:, n:] += in_time[:, :n]
+        return np.concatenate([values[:2], u_theta.ravel()])
 
     start, radial = on_axis(member, 1 + np.abs(lam).max())
-    u = np.zeros((4, n), dtype=complex)
-    u[0 if parity == SYMMETRIC else 1] = 1
+    u = np.zeros((2, 2 * n), dtype=complex)
+    u[0 if parity == SYMMETRIC else 1, :n] = 1
     if k:
         # As psi and sigma of the radial solution: psi1 odd, sigma1 even.
         _, _, _, _, n21, _, _, _, k21, _ = f(s, start, *radial)
-        u[1], u[3] = (lam * n21 - k21) / (1 + k) * start, n21 / (1 + k) * start
-        slope = slopes(start, np.concatenate([radial, u.ravel()]))[2:].reshape(4, n)
-        u[0] += slope[0] * start / 2
-        u[2] += slope[2] * start / 2
+        u[1, :n], u[1, n:] = (lam * n21 - k21) / (1 + k) * start, n21 / (1 + k) * start
+        u[0] += slopes(start, np.concatenate([radial, u.ravel()]))[2 : 2 + 2 * n] * start / 2
     y = np.concatenate([radial, u.ravel()])
     done = solve_ivp(slopes, (start, hopper.half_angle), y, "DOP853", rtol=rtol, atol=_ATOL)
     assert done.success, done.message
     end = done.y[:, -1]
-    return AtWall(end[0].real, end[1].real, *end[2:].reshape(4, n))
+    return AtWall(end[0].real, end[1].real, *end[2:].reshape(4, n)[[0, 2, 1, 3]])
 
 
 def shoot(solution, guess, parity=SYMMETRIC, rtol=_RTOL) -> complex:
