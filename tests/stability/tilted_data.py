@@ -17,10 +17,9 @@ from tests.stability.tilted_witnesses import ASYMMETRIC, SYMMETRIC
 DATA = Path(__file__).parents[1] / "data"
 
 
-def read(name):
-    """Return the sets (or points) of a file."""
-    content = json.loads((DATA / f"{name}.json").read_text(encoding="utf-8"))
-    return content["points" if "points" in content else "sets"]
+def read(name, key="sets"):
+    """Return a list of a file."""
+    return json.loads((DATA / f"{name}.json").read_text(encoding="utf-8"))[key]
 
 
 def radial(case) -> RadialSolution:

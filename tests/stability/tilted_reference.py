@@ -1,4 +1,4 @@
-"""Write tests/data/tilted_reference.json: modes and lines of many hoppers, by shooting alone.
+"""Write tests/data/tilted_reference.json: modes, lines, folds, corners, by shooting alone.
 
 Run as ``python -m tests.stability.tilted_reference`` (a few minutes). From the package come only
 starting values of sigma_0; it is then solved for anew on the shot radial solution.
@@ -13,7 +13,7 @@ import numpy as np
 
 from hopper.problem import Geometry, Hopper
 from hopper.radial.solution import solve_radial
-from tests.stability.tilted_folds import newton, wall_friction
+from tests.stability.tilted_folds import corner, fold, newton, wall_friction
 from tests.stability.tilted_line import line_along
 from tests.stability.tilted_witnesses import ASYMMETRIC, SYMMETRIC, Base, modes, shoot_all, to_wall
 
@@ -24,7 +24,10 @@ ABOUT = (
     "equations with DOP853 along the radial solution shot from sigma_axis; no collocation. Members "
     "of branch physical are given by phi_deg, those of branch second by sigma_axis. errors: of "
     "each mode, absolute: the change from rtol 1e-12 to 1e-13, the change by moving sigma_axis by "
-    "its own error, and rounding. line: Lambda, integrated along; line_error likewise."
+    "its own error, and rounding. line: Lambda, integrated along; line_error likewise. folds: of "
+    "cones, lambda = 0 is an eigenvalue. corners: folds with a double zero, where the border of "
+    "the stable domain of cones turns from the neutral curve to the fold; the neutral curve of "
+    "the complex pair ends there. Good to 1e-9 degrees, sigma_axis to 1e-8 of itself."
 )
 
 
@@ -72,6 +75,56 @@ MEMBERS: list[tuple[Geometry, float, float, float]] = [
     ("cone", 28, 30, 0.05),
     ("cone", 30, 10, 0.02),
 ]
+# Cones: delta, half angle, sigma_0 nearby.
+FOLDS = [
+    (28, 30, 0.064),
+    (30, 10, 0.027),
+    (30, 30, 0.054),
+    (30, 45, 0.07),
+    (30, 45, 0.0136),
+    (35, 10, 0.0143),
+    (35, 30, 0.037),
+    (40, 5, 0.0029),
+    (40, 30, 0.026),
+    (45, 10, 0.0037),
+    (45, 20, 0.011),
+    (45, 30, 0.019),
+    (50, 20, 0.0071),
+    (55, 10, 0.00016),
+]
+# Half angle, delta, sigma_0 nearby.
+CORNERS = [
+    (5, 29.1, 0.02),
+    (10, 29.6, 0.029),
+    (15, 30.2, 0.035),
+    (20, 30.8, 0.04),
+    (25, 31.3, 0.043),
+    (30, 31.8, 0.047),
+    (35, 32.3, 0.05),
+    (40, 32.8, 0.054),
+]
+
+
+def folds():
+    for delta, half_angle, sigma_axis in FOLDS:
+        member = fold(Hopper("cone", radians(delta), radians(half_angle)), sigma_axis)
+        yield {
+            "delta_deg": delta,
+            "half_angle_deg": half_angle,
+            "phi_deg": degrees(wall_friction(member)),
+            "sigma_axis": member.sigma_axis,
+        }
+
+
+def corners():
+    for half_angle, near_delta, near_sigma in CORNERS:
+        delta, phi, member = corner(half_angle, near_delta, near_sigma)
+        yield {
+            "half_angle_deg": half_angle,
+            "delta_deg": delta,
+            "phi_deg": phi,
+            "sigma_axis": member.sigma_axis,
+        }
 
 
 def member_of_wall(hopper, phi_deg):
@@ -150,11 +203,13 @@ def entries():
 
 
 def main():
-    sets = []
-    for found in entries():
-        sets.append(found)
-        print(*(found[key] for key in ("geometry", "delta_deg", "half_angle_deg", "phi_deg")))
-    FILE.write_text(json.dumps({"about": ABOUT, "sets": sets}, indent=1) + "\n", encoding="utf-8")
+    content = {
+        "about": ABOUT,
+        "sets": list(entries()),
+        "folds": list(folds()),
+        "corners": list(corners()),
+    }
+    FILE.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":
