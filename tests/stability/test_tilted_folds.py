@@ -48,6 +48,7 @@ def label(known):
     return f"{known['delta_deg']}-{known['half_angle_deg']}"
 
 
+@pytest.mark.soak
 def test_fold_taken_for_the_limit_of_no_stress_on_the_axis():
     limit = friction_limit(cone(55, 10))
     assert limit.end == "axis"
