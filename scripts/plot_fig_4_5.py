@@ -20,7 +20,7 @@ def draw(
         axis.set_title(rf"cone, $\vartheta_w$ = {angle:g}°")
         axis.set_xlabel(r"angle of internal friction $\delta$ (degrees)")
     axes[0, 0].set_ylabel(r"angle of wall friction $\phi$ (degrees)")
-    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return figure
 
 

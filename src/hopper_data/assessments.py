@@ -39,18 +39,14 @@ STABILITY: Table = (
     number("abscissa_asymmetric", "the same, asymmetric disturbances", source="asymmetric"),
     number(
         "transient_amplification",
-        "transient amplification in tilted time, L2",
+        "amplification, tilted time, L2",
         source="transient.amplification",
         scale="exp(-t abscissa)",
     ),
     number(
-        "transient_growth",
-        "transient growth in tilted time, L2: largest norm of exp(-tM)",
-        source="transient.growth",
+        "transient_growth", "largest norm of exp(-tM), tilted time, L2", source="transient.growth"
     ),
-    number(
-        "kappa", "condition number of the modes in tilted time, L2", source="transient.condition"
-    ),
+    number("kappa", "condition of the modes, tilted time, L2", source="transient.condition"),
     number("transient_modes", "number of symmetric modes followed", source="transient.modes"),
 )
 SPECTRUM: Table = within("spectrum", eigenvalues("symmetric"))

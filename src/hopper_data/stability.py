@@ -1,14 +1,16 @@
 """Tables of spectra and of what decides stability."""
 
 from dataclasses import replace
-
-import xarray as xr
+from typing import TYPE_CHECKING
 
 from hopper.stability.collocation import PARITIES
 from hopper.stability.convergence_filter import REASONS
 from hopper.stability.mesh_spectrum import HALVES, MeshSpectrum
 from hopper.stability.modes import GOVERNORS
 from hopper_data.tables import Table, complex_number, flag, number, within
+
+if TYPE_CHECKING:  # a plain answer needs no xarray, which takes a second to import
+    import xarray as xr
 
 _NO_YES = ("no", "yes")
 HALF = flag("half", "parity: physical is sigma1 even and psi1 odd", HALVES, "mode")
@@ -64,7 +66,7 @@ PLANE: Table = (
 PSEUDOSPECTRUM: Table = (number("sigma_min", "smallest singular value of z I - M", "imag real"),)
 
 
-def read_mesh_spectrum(stored: xr.Dataset, n: int) -> MeshSpectrum:
+def read_mesh_spectrum(stored: "xr.Dataset", n: int) -> MeshSpectrum:
     """Return the spectrum of a mesh of ``n`` nodes from its stored form."""
     return MeshSpectrum(
         n,

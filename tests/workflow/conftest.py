@@ -44,9 +44,10 @@ COARSE: dict[str, Any] = {
     "borders.check": CHECK,
     "domain_angle.half_angles_deg": [10, 30],
     "domain_angle.neutral_step_deg": 4,
-    "domain_angle.tangency_points": 5,
     "claims.models.deltas_deg.step": 20,
     "claims.models.psi_points": 4,
+    "claims.linear.folds.half_angles_deg": [10],
+    "claims.linear.folds.deltas_deg.step": 10,
     "claims.linear.windows.points": 11,
 }
 

@@ -107,11 +107,15 @@ def test_the_number_of_chunks_does_not_change_the_map(built, rebuilt):
 def test_a_map_tells_why_there_is_no_verdict(built):
     for path in files(built, "results/map", "*_[0-9]*.nc"):
         data = artifacts.read(path)
-        verdict = np.isin(data.region, ["stable", "unstable"])
-        assert np.array_equal(np.isfinite(data.abscissa), verdict)
-        assert np.all(
-            (data.abscissa.values[verdict] < 0) == (data.region.values[verdict] == "stable")
-        )
+        signs = {
+            "stable": (data.abscissa < 0) & (data.abscissa_symmetric < 0),
+            "stable_symmetric_only": (data.abscissa >= 0) & (data.abscissa_symmetric < 0),
+            "unstable": data.abscissa_symmetric >= 0,
+        }
+        for region, expected in signs.items():
+            assert np.array_equal(data.region == region, expected), (path, region)
+        assert np.array_equal(np.isfinite(data.abscissa), np.isin(data.region, list(signs)))
+        assert np.array_equal(np.isfinite(data.abscissa), data.governed_by != "none")
 
 
 def test_error_estimates_are_in_the_artifacts(built):

@@ -184,21 +184,20 @@ def domain_shrinks_with_opening(
     return limited(finding, start[1] < start[0] or not falling)
 
 
-def domain_is_inside_the_curve(narrow: xr.Dataset, wide: xr.Dataset, *, close: float) -> Finding:
-    ends, gaps, folds = [], [], []
-    for data in (narrow, wide):
-        delta, phi = (values(data, f"neutral_{name}")[-1] for name in ("delta", "phi"))
-        limit = np.interp(delta, values(data, "delta"), values(data, "limit_phi", gaps=True))
-        ends.append(f"delta = {delta:.4f}, phi = {phi:.4f} deg")
-        gaps.append(float(abs(limit - phi)))
-        folds.append(meaning(data, "neutral_end") == "fold")
-    closed = all(folds) and max(gaps) <= close
+def domain_is_inside_the_curve(narrow: xr.Dataset, wide: xr.Dataset) -> Finding:
+    ends = [
+        "delta = {:.4f}, phi = {:.4f} deg".format(
+            *(values(data, f"neutral_{name}")[-1] for name in ("delta", "phi"))
+        )
+        for data in (narrow, wide)
+    ]
+    closed = [meaning(data, "neutral_end") == "fold" for data in (narrow, wide)]
     remark = (
         f"The neutral curves end in corners on the fold of the solutions: {'; '.join(ends)}. "
         "From there the fold bounds the domain, where a real mode is neutral. Towards large delta "
         "it is open as far as looked."
     )
-    return Finding(max(gaps), close, HOLDS if closed else LIMITED, remark)
+    return counted(sum(closed), len(closed), remark)
 
 
 def folds_are_neutral(linear: xr.Dataset, *, zero: float) -> Finding:
