@@ -15,7 +15,7 @@ from hopper.spectral.sensitivity import (
     resolvent_norm,
 )
 from hopper.spectral.transient import condition_number, modal_matrix, propagator_norm
-from hopper.stability.collocation import half_matrix
+from hopper.stability.paper_matrix import half_matrix
 from hopper.stability.transient import half_weights
 from tests.stability.kept_modes import (
     EPS,

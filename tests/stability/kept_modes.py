@@ -12,7 +12,7 @@ from scipy.optimize import linear_sum_assignment
 
 from hopper.spectral import chebyshev
 from hopper.spectral.matching import unbroken_run
-from hopper.stability.collocation import paper_matrix
+from hopper.stability.paper_matrix import paper_matrix
 from hopper.stability.convergence_filter import convergence_filter
 from hopper.stability.mesh_spectrum import HALVES, mesh_spectrum
 from hopper.stability.transient import modal_basis

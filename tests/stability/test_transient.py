@@ -18,7 +18,7 @@ from hopper.spectral.transient import (
     oscillation,
     propagator_norm,
 )
-from hopper.stability.collocation import paper_matrix
+from hopper.stability.paper_matrix import paper_matrix
 from hopper.stability.mesh_spectrum import HALVES
 from hopper.stability.transient import NORMS, half_weights, modal_basis
 from tests.stability.kept_modes import (

@@ -1,4 +1,4 @@
-"""Coefficients of the linearised equations against their derivation by computer algebra."""
+"""Coefficients of the paper's frame against their derivation by computer algebra."""
 
 from math import inf, nan, radians
 
@@ -8,7 +8,7 @@ import pytest
 from hopper import Hopper, solve_radial
 from hopper.errors import InvalidParameterError
 from hopper.spectral import chebyshev
-from hopper.stability.linearisation import coefficients, coefficients_on_half_grid
+from hopper.stability.paper_frame import coefficients, coefficients_on_half_grid
 from hopper.yield_conditions import VON_MISES
 from tests.stability.witnesses import derived_coefficients, radial
 

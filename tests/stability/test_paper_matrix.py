@@ -1,14 +1,12 @@
-"""The collocated stability operator: its action, its split by parity, its refusals."""
-
-from math import radians
+"""The paper's matrix: its action, its split by parity, its refusals."""
 
 import numpy as np
 import pytest
 from scipy.linalg import eigvals
 
-from hopper.errors import InvalidParameterError, TangencyError
+from hopper.errors import InvalidParameterError
 from hopper.spectral import chebyshev
-from hopper.stability.collocation import half_matrix, paper_matrix
+from hopper.stability.paper_matrix import half_matrix, paper_matrix
 from hopper.stability.mesh_spectrum import HALVES
 from tests.stability.witnesses import derived_coefficients, partner_distances, radial
 
@@ -105,15 +103,3 @@ def test_half_grids_need_two_nodes():
     assert half_matrix(radial("wedge", 35, 10), 2).shape == (3, 3)
     with pytest.raises(InvalidParameterError, match="m = 1 half-grid nodes: give at least 2"):
         half_matrix(radial("wedge", 35, 10), 1)
-
-
-def test_tangency_is_refused():
-    # Tangency at the wall begins at mu = 0.325.
-    solution = radial("cone", 25, 10, 0.33)
-    for build in (paper_matrix, half_matrix):
-        with pytest.raises(TangencyError, match=r"psi reaches .* lower the wall friction") as told:
-            build(solution, 60)
-        assert 0 < told.value.theta <= radians(10)
-        limit = np.pi / 4 - solution.hopper.delta / 2
-        assert solution.psi_at(told.value.theta)[0] >= limit
-    assert half_matrix(radial("cone", 25, 10, 0.32), 60).shape == (119, 119)
