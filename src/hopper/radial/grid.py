@@ -77,12 +77,7 @@ def half_grid(
     Its arrays are read-only.
     """
     x = chebyshev.half_nodes(size, centred=centred)
-    if clustering:
-        scale = half_angle / np.sinh(clustering)
-        theta = scale * np.sinh(clustering * x)
-        stretch = scale * clustering * np.cosh(clustering * x)
-    else:
-        theta, stretch = half_angle * x, np.full(size, half_angle)
+    theta, stretch = _mapped(x, half_angle, clustering)
     weights = chebyshev.clenshaw_curtis_weights(2 * size - centred)[-size:] * stretch
     weights[0] /= 1 + centred  # half of the point on the axis belongs to the other side
     derivative = partial(chebyshev.half_differentiation_matrix, size)
@@ -104,6 +99,28 @@ def half_grid(
         if isinstance(value, np.ndarray):
             value.flags.writeable = False
     return grid
+
+
+def _mapped(x: Array, half_angle: float, clustering: float) -> tuple[Array, Array]:
+    """Return theta and d theta / d x at Chebyshev coordinates."""
+    if not clustering:
+        return half_angle * x, np.full(x.size, half_angle)
+    scale = half_angle / np.sinh(clustering)
+    return scale * np.sinh(clustering * x), scale * clustering * np.cosh(clustering * x)
+
+
+@lru_cache(maxsize=64)
+def disc_weights(grid: Grid) -> Array:
+    """Return weights of the integral of an even function times sin(theta) from 0 to theta_w.
+
+    They are positive and as accurate as the interpolant; those of the plain integral times
+    sin(theta) are not, as |sin(theta)| has a kink on the axis.
+    """
+    x, weight = np.polynomial.legendre.leggauss(grid.size + 32)
+    theta, stretch = _mapped((1 + x) / 2, grid.half_angle, grid.clustering)
+    weights = (weight / 2 * np.sin(theta) * stretch) @ grid.interpolation(theta, "even")
+    weights.flags.writeable = False
+    return weights
 
 
 @lru_cache(maxsize=512)

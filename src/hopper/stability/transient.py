@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 from hopper.arrays import Array, Complex
 from hopper.errors import InvalidParameterError
 from hopper.problem import Hopper
-from hopper.radial.grid import Grid, half_grid
+from hopper.radial.grid import Grid, disc_weights, half_grid
 from hopper.radial.solution import RadialSolution
 from hopper.spectral.transient import ModalBasis, basis_of
 from hopper.stability.collocation import Parity, mode_grid, tilted_matrix
@@ -52,7 +52,7 @@ def half_weights(hopper: Hopper, m: int, norm: Norm) -> Array:
 def _l2_weights(hopper: Hopper, grid: Grid) -> Array:
     weights = 2 * grid.weights / hopper.half_angle
     if hopper.curvature:
-        weights = weights * grid.sin / np.sin(hopper.half_angle)
+        weights = 2 * disc_weights(grid) / (hopper.half_angle * np.sin(hopper.half_angle))
     first = int(grid.centred)
     return np.concatenate([weights[first:], weights[:-1]])
 
