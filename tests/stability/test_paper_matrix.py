@@ -6,8 +6,8 @@ from scipy.linalg import eigvals
 
 from hopper.errors import InvalidParameterError
 from hopper.spectral import chebyshev
-from hopper.stability.paper_matrix import half_matrix, paper_matrix
 from hopper.stability.mesh_spectrum import HALVES
+from hopper.stability.paper_matrix import half_matrix, paper_matrix
 from tests.stability.witnesses import derived_coefficients, partner_distances, radial
 
 HOPPERS = [("wedge", 35, 10, 0.0), ("cone", 35, 10, 0.0), ("cone", 38, 17, 0.12)]

@@ -10,9 +10,9 @@ from scipy.linalg import eig, eigvals
 from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.spectral import chebyshev
 from hopper.spectral.matching import relative_changes, unbroken_run
-from hopper.stability.paper_matrix import half_matrix, paper_matrix
 from hopper.stability.convergence_filter import REASONS, convergence_filter
 from hopper.stability.mesh_spectrum import HALVES, MeshSpectrum, mesh_spectrum
+from hopper.stability.paper_matrix import half_matrix, paper_matrix
 from tests.stability.witnesses import partner_distances, radial
 
 TOLERANCE = 1e-3

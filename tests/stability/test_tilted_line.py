@@ -4,12 +4,7 @@ import numpy as np
 import pytest
 
 from tests.stability.tilted_data import ELSEWHERE, ELSEWHERE_NAMES, name, radial, read
-from tests.stability.tilted_line import (
-    extrapolated,
-    high_modes,
-    line_along,
-    line_by_quadrature,
-)
+from tests.stability.tilted_line import extrapolated, high_modes, line_along, line_by_quadrature
 from tests.stability.tilted_witnesses import ASYMMETRIC, SYMMETRIC
 
 REFERENCE = read("tilted_reference")
