@@ -4,10 +4,16 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
-from scipy.linalg import block_diag, eig
+from scipy.linalg import block_diag, eig, expm
 
 from hopper import schur_form
-from hopper.spectral.sensitivity import kept_condition_numbers, kept_sensitivity
+from hopper.errors import InvalidParameterError
+from hopper.spectral.sensitivity import (
+    kept_condition_numbers,
+    kept_form,
+    kept_sensitivity,
+    resolvent_norm,
+)
 from hopper.spectral.transient import condition_number, modal_matrix, propagator_norm
 from hopper.stability.paper_matrix import half_matrix
 from hopper.stability.transient import half_weights
@@ -62,8 +68,9 @@ def random_perturbation(random, n):
 
 @lru_cache(maxsize=4)
 def weighted_matrix(geometry):
-    root = np.sqrt(half_weights(radial(geometry, 35, 10).hopper, N // 2, "L2"))
-    return root[:, None] * half_matrix(radial(geometry, 35, 10), N // 2) / root
+    solution = radial(geometry, 35, 10)
+    root = np.sqrt(half_weights(solution.hopper, N // 2, "L2"))
+    return root[:, None] * half_matrix(solution, N // 2) / root
 
 
 def conditions(geometry):
@@ -111,8 +118,121 @@ def test_condition_numbers_bound_the_shift_and_are_attained(geometry):
 
 
 def test_condition_numbers_of_strangers():
-    solution = radial(geometry, 35, 10)
-    form = schur_form(half_matrix(solution, N // 2), half_weights(solution.hopper, N // 2, "L2"))
+    form = schur_form(np.diag([1.0, 2.0, 3.0]))
+    assert kept_condition_numbers(form, np.array([3.0, 1.0 + 0j])).tolist() == [1, 1]
+    with pytest.raises(InvalidParameterError, match="1 kept eigenvalues are not on this mesh"):
+        kept_condition_numbers(form, np.array([3.0, 1.5 + 0j]))
+
+
+# Distance to instability.
+
+
+def least_on_the_axis(matrix, relative):
+    """Smallest sigma_min(i y - M): bisect whatever may hold less, sigma_min being 1-Lipschitz."""
+    top = 2 * np.linalg.norm(matrix, 2)  # sigma_min > ||M|| beyond
+    half = top / 256
+    y = np.arange(half, top, 2 * half)
+    best = np.inf
+    while True:
+        value = sigma_min(matrix, 1j * y)
+        best = min(best, value.min())
+        if half < relative * best:
+            return best
+        y = y[value - half < best * (1 - relative)]
+        half /= 2
+        y = np.concatenate([y - half, y + half])
+
+
+@pytest.mark.parametrize("geometry", GEOMETRIES)
+def test_distance_by_brute_force(geometry):
+    found = sensitivity(geometry)
+    best = least_on_the_axis(operator(geometry), 1e-5)
+    assert abs(found.distance / best - 1) < 2e-5
+    assert sigma_min(operator(geometry), 1j * found.frequency) == pytest.approx(
+        found.distance, rel=1e-8
+    )
+    assert found.frequency >= 0
+
+
+@pytest.mark.parametrize("geometry", GEOMETRIES)
+def test_perturbation_of_that_size_reaches_the_axis_and_no_smaller_one_does(geometry):
+    matrix, found = operator(geometry), sensitivity(geometry)
+    n, z = len(matrix), 1j * found.frequency
+    u, s, vh = np.linalg.svd(z * np.eye(n) - matrix)
+    worst = np.outer(u[:, -1], vh[-1])
+    on_axis = np.linalg.eigvals(matrix + s[-1] * worst)
+    assert np.abs(on_axis - z).min() < 100 * EPS * np.linalg.norm(matrix) * condition_number(
+        bases(geometry)
+    )
+
+    def right(perturbation):
+        return np.count_nonzero(np.linalg.eigvals(matrix + perturbation).real > 0)
+
+    before = right(0 * worst)
+    assert before == (0 if geometry == "cone" else n - 2)
+    # On the way to the axis the eigenvalue stays on its side; beyond, it has changed it.
+    assert [right(f * found.distance * worst) for f in (0.5, 0.99, 0.999)] == 3 * [before]
+    assert right(1.01 * found.distance * worst) != before
+    random = np.random.default_rng(2)
+    for _ in range(60):
+        assert right(0.999 * found.distance * random_perturbation(random, n)) == before
+
+
+# Kreiss bound and resolvent.
+
+
+def kreiss(matrix, alpha, offsets, heights):
+    """Largest (Re z - alpha) / sigma_min(z - M) on a grid right of alpha."""
+    z = alpha + np.array(offsets)[:, None] + 1j * np.array(heights)
+    return ((z.real - alpha).ravel() / sigma_min(matrix, z.ravel())).max()
+
+
+@pytest.mark.parametrize("geometry", GEOMETRIES)
+def test_kreiss_bound_is_one(geometry):
+    found = sensitivity(geometry).kreiss
+    matrix = operator(geometry)
+    alpha = np.linalg.eigvals(matrix).real.max()
+    growth = max(
+        np.exp(-alpha * t) * np.linalg.norm(expm(t * matrix), 2) for t in np.linspace(0, 1, 41)
+    )
+    assert 1 < found <= growth
+    assert growth <= condition_number(bases(geometry))
+    # It nearly attains the supremum: another grid finds little more or less.
+    best = kreiss(matrix, alpha, np.logspace(-3, 3, 31), np.linspace(0, 350, 141))
+    assert found == pytest.approx(best, rel=0.03)
+
+
+@pytest.mark.parametrize("geometry", GEOMETRIES)
+def test_resolvent_norm_by_svd(geometry):
+    y = np.linspace(-20, 400, 50)
+    expected = 1 / sigma_min(operator(geometry), 1j * y)
+    parts = [kept_form([basis]) for basis in bases(geometry)]
+    for forms in (parts, [kept_form(bases(geometry))]):
+        np.testing.assert_allclose(resolvent_norm(forms, y), expected, rtol=1e-6)
+    assert resolvent_norm(parts, np.array([sensitivity(geometry).frequency])) == pytest.approx(
+        1 / sensitivity(geometry).distance, rel=1e-6
+    )
+
+
+# The paper's case.
+
+
+# Mode, norm, weight of psi; kappa(V), distance, Kreiss bound.
+PAPER = ("paper", "discrete", 2.0)
+PHYSICAL = ("physical", "L2", 1.0)
+
+
+@pytest.mark.parametrize(
+    ("geometry", "case", "kappa", "distance", "kreiss_bound"),
+    [
+        ("wedge", PAPER, 16.497, 0.23615, 2.8034),
+        ("wedge", PHYSICAL, 1.9434, 0.53452, 1.2278),
+        ("cone", PAPER, 224.92, 0.0073014, 27.135),
+        ("cone", PHYSICAL, 1.37412, 0.193045, 1.04994),
+    ],
+)
+def test_numbers_of_figure_4_3(geometry, case, kappa, distance, kreiss_bound):
+    mode, norm, psi_scale = case
     kept = kept_eigenvalues(geometry, mode, 400)
     found_bases = kept_bases(geometry, mode, 400, norm, psi_scale)
     found = kept_sensitivity(found_bases)
