@@ -1,4 +1,4 @@
-"""The package's coefficients in tilted time and their collocation, against the derived equations."""
+"""The package's coefficients in tilted time and their collocation, against derived ones."""
 
 from math import cos, pi, radians
 
@@ -50,7 +50,9 @@ def test_matrices_are_those_of_the_derivation(case):
     ):
         difference = found - np.moveaxis(derived, 2, 0)
         # Slopes of the radial solution by the grid here, by the equations of motion there.
-        assert np.all(np.abs(difference) <= size_of(found) * (1e-12 + 1e3 * solution.error_estimate))
+        assert np.all(
+            np.abs(difference) <= size_of(found) * (1e-12 + 1e3 * solution.error_estimate)
+        )
 
 
 @EVERY
@@ -94,7 +96,7 @@ def test_moving_the_apex_is_a_solution_with_lambda_one(case):
     for parity in ["symmetric", "asymmetric"] if wedge else ["symmetric"]:
         grid = mode_grid(solution, 120, parity)
         first = int(grid.centred)
-        sigma, psi, d_sigma, d_psi = solution.fields(grid.theta)
+        sigma, _, d_sigma, d_psi = solution.fields(grid.theta)
         if parity == "symmetric":
             u = np.array([grid.cos * sigma - grid.sin * d_sigma, -grid.sin * (1 + d_psi)])
             slopes = np.array([grid.d_even @ u[0], grid.d_odd @ u[1]])
@@ -236,7 +238,9 @@ def test_refusals():
     for m in (2, 0, -1):
         with pytest.raises(InvalidParameterError, match="half-grid points: give at least 3"):
             tilted_matrix(wedge, m)
-    with pytest.raises(InvalidParameterError, match="singular at the apex of a cone: use symmetric"):
+    with pytest.raises(
+        InvalidParameterError, match="singular at the apex of a cone: use symmetric"
+    ):
         tilted_matrix(cone, 12, "asymmetric")
     with pytest.raises(InvalidParameterError, match="parity = 'odd' is unknown: use symmetric or"):
         require_disturbance("wedge", "odd")
