@@ -30,8 +30,9 @@ from hopper.stability.transient import tilted_basis
 _SENSITIVITY_SIZE = 36
 # Half-grid points of the two meshes for transient growth, and the largest change of a kept mode.
 _SIZE, _COARSE_SIZE, _CHANGE = 48, 32, 1e-6
-# Round trips of a wave between axis and wall over which growth is followed; samples of each.
-_TRIPS, _SAMPLES = 4, 64
+# Round trips of a wave between axis and wall over which growth is followed; samples of each, four
+# for each swing of the norm by the highest modes; accuracy of the time of the largest, in trips.
+_TRIPS, _SAMPLES, _TIME = 4, 128, 1e-8
 
 
 @dataclass(frozen=True)
@@ -233,6 +234,9 @@ def _time_of_largest(basis: ModalBasis, rate: float, period: float) -> float:
     peak = times[np.argmax(propagator_norm([basis], times) * np.exp(-rate * times))]
     around = max(0.0, peak - times[1]), min(peak + times[1], times[-1])
     found = minimize_scalar(
-        lambda elapsed: -_scaled_norm(basis, elapsed, rate), bounds=around, method="bounded"
+        lambda elapsed: -_scaled_norm(basis, elapsed, rate),
+        bounds=around,
+        method="bounded",
+        options={"xatol": _TIME * period},
     )
     return float(found.x)
