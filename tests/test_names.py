@@ -139,16 +139,20 @@ def results():
     """One of each public dataclass, by its name, as it comes out of the numerics."""
     from hopper.assessment.neutral import assess_neutral
     from hopper.domain.borders import borders
+    from hopper.domain.growth import Hoppers, root
+    from hopper.domain.neutral_points import StableDeltas, StableInterval
     from hopper.domain.stability_map import sweep_friction
+    from hopper.evidence.folds import fold_mode
     from hopper.evidence.motion import check_field, levy_factor
     from hopper.evidence.printed import compare_linearised
     from hopper.evidence.smooth_operator import check_formula
     from hopper.radial.critical_point import CriticalPoint, LimitingSolution
     from hopper.spectral.sensitivity import kept_sensitivity
     from hopper.stability.convergence_filter import convergence_filter
-    from hopper.stability.linearisation import coefficients
     from hopper.stability.mesh_spectrum import mesh_spectrum
     from hopper.stability.paper_abscissa import paper_abscissa
+    from hopper.stability.paper_frame import coefficients
+    from hopper.stability.tilted import tilted_coefficients
     from hopper.stability.transient import modal_basis
     from hopper_data.inputs import Case, Wall
     from hopper_data.tables import number, rows
@@ -157,6 +161,9 @@ def results():
     solution = hopper.solve_radial(cone, 0.1)
     stability = hopper.linear_stability(solution)
     known = hopper.assess(cone, 0.1)
+    neutral = assess_neutral("cone", radians(10), 0.1)
+    interval = StableInterval(0.5, 1.5, "neutral", "fold")
+    stable = StableDeltas(0.1, (0.5,), (interval,))
     mesh = mesh_spectrum(solution, 48)
     kept = stability.eigenvalues[stability.eigenvalues.imag > 0][:1]
     basis = modal_basis(solution, 64, "physical", np.concatenate([kept, kept.conj()]))
@@ -173,8 +180,10 @@ def results():
         hopper.pseudospectrum(form, [-1, 1], [0, 1]), known, known.limits, known.radial,
         known.stability, known.stability and known.stability.transient,
         known.radial and known.radial.sigma_axis,
-        assess_neutral("cone", radians(10), 0.1), hopper.neutral_curve("cone", radians(10), 0.1),
-        borders("cone", radians(10), [radians(35)]), sweep_friction(cone, [0.0, 0.1]),
+        neutral, *neutral.points[:1], *neutral.intervals[:1],
+        hopper.neutral_curve("wedge", radians(10), 0.1, radians(43)), interval, stable,
+        stability.modes["symmetric"], tilted_coefficients(solution, [0.1]), fold_mode(cone),
+        Hoppers("cone", radians(10)), root(np.sin, 0.1), borders("cone", radians(10), [radians(35)]), sweep_friction(cone, [0.0, 0.1]),
         check_field(solution), levy_factor(von_mises, hopper.solve_velocity(von_mises)),
         compare_linearised(solution, 3), check_formula(cone, 3, 12),
         Case("cone", "mohr-coulomb", 35, 10, Wall.of(0.1)), Wall.of(0.1),
