@@ -17,6 +17,9 @@ from hopper.brief import brief
 from hopper.problem import Hopper
 from hopper.spectral import chebyshev
 
+# tau theta_w from which wedges have a layer that needs clustering.
+_THIN = 30.0
+
 
 @dataclass(frozen=True, eq=False)
 class Grid:
@@ -135,10 +138,12 @@ def transfer(old: Grid, new: Grid, parity: chebyshev.Parity) -> Array:
 
 
 def layer_clustering(hopper: Hopper, tau: float) -> float:
-    """Return the clustering that resolves the layer at the apex of a cone, of width 1 / tau.
+    """Return the clustering that resolves the layer at the apex, of width 1 / tau.
 
     In steps of a half, so that grids can be kept. The factors are those with which modes need the
-    fewest points, measured for tau theta_w from 0.3 to 30.
+    fewest points, measured for tau theta_w from 0.3 to 30; in wedges up to there none is best.
     """
-    layer = 1.3 * asinh(tau * hopper.half_angle / 3) * hopper.curvature
-    return 0.5 * round(2 * max(0.0, layer))
+    width = tau * hopper.half_angle
+    if not hopper.curvature and width < _THIN:
+        return 0.0
+    return 0.5 * round(2 * max(0.0, 1.3 * asinh(width / 3)))
