@@ -53,7 +53,7 @@ class NeutralAssessment:
     points: tuple[NeutralPoint, ...]
     intervals: tuple[Interval, ...]
 
-    __repr__ = brief("points", "intervals")
+    __repr__ = brief("delta deg")
 
     @property
     def delta(self) -> Quantity | None:

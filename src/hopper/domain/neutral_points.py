@@ -56,7 +56,7 @@ class StableDeltas:
     neutral: tuple[float, ...]
     intervals: tuple[StableInterval, ...]
 
-    __repr__ = brief("friction_angle deg", "neutral", "intervals")
+    __repr__ = brief("friction_angle deg", "neutral")
 
 
 @dataclass(frozen=True)
