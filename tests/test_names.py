@@ -83,7 +83,7 @@ def test_no_name_is_that_of_a_room_or_module_beside_it():
 
 @pytest.mark.parametrize(
     "first",
-    ["", *MODULES[:: max(1, len(MODULES) // 9)], "hopper_data.results", "hopper_cli.commands"],
+    ["", *MODULES[:: max(1, len(MODULES) // 4)], "hopper_data.results", "hopper_cli.commands"],
 )
 def test_the_names_mean_the_same_in_any_order_of_imports(first):
     names = "; ".join(f"print(hopper.{name}.__module__)" for name in NAMES)
@@ -183,7 +183,8 @@ def results():
         neutral, *neutral.points[:1], *neutral.intervals[:1],
         hopper.neutral_curve("wedge", radians(10), 0.1, radians(43)), interval, stable,
         stability.modes["symmetric"], tilted_coefficients(solution, [0.1]), fold_mode(cone),
-        Hoppers("cone", radians(10)), root(np.sin, 0.1), borders("cone", radians(10), [radians(35)]), sweep_friction(cone, [0.0, 0.1]),
+        Hoppers("cone", radians(10)), root(np.sin, 0.1),
+        borders("cone", radians(10), [radians(35)]), sweep_friction(cone, [0.0, 0.1]),
         check_field(solution), levy_factor(von_mises, hopper.solve_velocity(von_mises)),
         compare_linearised(solution, 3), check_formula(cone, 3, 12),
         Case("cone", "mohr-coulomb", 35, 10, Wall.of(0.1)), Wall.of(0.1),

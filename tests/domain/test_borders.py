@@ -189,7 +189,8 @@ def test_folds_rise_or_fall_with_delta():
 def test_thinned_borders(size, index):
     arrays = [np.arange(size) + i / 10 for i in range(5)]
     ends = tuple(f"end {i}" for i in range(size))
-    thinned = Borders(*arrays[:3], ends, *arrays[3:]).thinned()
+    delta, limit, error, tangency, singular = arrays
+    thinned = Borders(delta, limit, error, ends, tangency, singular).thinned()
     kept = [thinned.delta, thinned.limit, thinned.limit_error, thinned.tangency]
     for array, found in zip(arrays, [*kept, thinned.singular_velocity], strict=True):
         np.testing.assert_array_equal(found, array[index])

@@ -10,7 +10,7 @@ from hopper import Hopper, solve_radial
 from hopper.errors import InvalidParameterError
 from hopper.radial.grid import disc_weights, half_grid
 from hopper.spectral import chebyshev
-from hopper.stability.collocation import mode_grid, require_disturbance, tilted_matrix
+from hopper.stability.collocation import mode_grid, parities_of, require_disturbance, tilted_matrix
 from hopper.stability.paper_frame import coefficients
 from hopper.stability.paper_matrix import half_matrix
 from hopper.stability.tilted import (
@@ -92,8 +92,7 @@ def test_tilted_time_removes_the_diagonal(case):
 def test_moving_the_apex_is_a_solution_with_lambda_one(case):
     """Upwards in all hoppers, sideways in wedges, to 1e-9; slopes on the package's own grids."""
     solution = of_case(case)
-    wedge = solution.hopper.geometry == "wedge"
-    for parity in ["symmetric", "asymmetric"] if wedge else ["symmetric"]:
+    for parity in parities_of(solution.hopper.geometry):
         grid = mode_grid(solution, 120, parity)
         first = int(grid.centred)
         sigma, _, d_sigma, d_psi = solution.fields(grid.theta)
