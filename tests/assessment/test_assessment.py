@@ -105,10 +105,7 @@ def test_limits_that_are_not_resolved_are_noted():
     found = radial_numbers(make("wedge", 88, 38), 0.1)
     assert found.limits.friction is None
     assert found.limits.coefficient is None
-    assert found.notes == (
-        "the largest friction with a radial solution is not resolved",
-        "the number of radial solutions is unknown: the family is not resolved",
-    )
+    assert found.notes == ("the largest friction with a radial solution is not resolved",)
     assert found.sigma_wall.error < 1e-10
 
 
@@ -381,7 +378,7 @@ def test_eigenvalues_by_a_second_discretisation(hopper):
 
 def test_errors_of_the_fields_reach_the_eigenvalues():
     ratios, line_ratios = [], []
-    for solution, crude in random_crude_solutions(10, np.random.default_rng(8)):
+    for solution, crude in random_crude_solutions(6, np.random.default_rng(8)):
         try:
             exact, found = stability_of(solution), stability_of(crude)
         except HopperError:
@@ -390,7 +387,7 @@ def test_errors_of_the_fields_reach_the_eigenvalues():
             change = np.abs(modes.eigenvalues[:, None] - exact.modes[parity].eigenvalues)
             ratios.append((change.min(axis=1) / modes.errors)[:3].max())
         line_ratios.append(abs(exact.abscissa.value - found.abscissa.value) / found.abscissa.error)
-    assert len(ratios) > 4
+    assert len(ratios) > 3
     # Ten times the error of the fields is in the modes' own estimate, besides its consequences.
     assert 0.02 < max(ratios) < 1
     assert max(line_ratios) < 1
@@ -427,7 +424,10 @@ def test_at_a_neutral_point_the_verdict_turns():
     assert verdicts == ["unstable", "stable"]
 
 
-@pytest.mark.parametrize("point", [read("neutral_points", "points")[i] for i in (2, 4)])
+POINTS = read("neutral_points", "points")
+
+
+@pytest.mark.parametrize("point", [pytest.param(POINTS[2], marks=pytest.mark.soak), POINTS[4]])
 def test_neutral_points_beyond_the_tangency_and_of_both_parities(point):
     angles = radians(point["half_angle"]), radians(point["phi"])
     found = assess_neutral(point["geometry"], *angles)

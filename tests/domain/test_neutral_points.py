@@ -155,6 +155,12 @@ def test_no_hopper_with_a_solution():
         stable_deltas("cone", radians(60), radians(88))
 
 
+def test_no_stable_interval():
+    found = stable("cone", 50, 7)
+    assert found.neutral == found.intervals == ()
+
+
+@pytest.mark.soak
 def test_no_stable_hopper():
     """Above the corner of so wide a cone the neutral curve has ended."""
     with pytest.raises(NoNeutralPointError, match="no hopper is stable; change the wall friction"):

@@ -23,7 +23,10 @@ def supremum(case):
     return max(case["line"], modes.real.max())
 
 
-@pytest.mark.parametrize("wedge", WEDGES)
+@pytest.mark.parametrize(
+    "wedge",
+    [*WEDGES[:2], WEDGES[4], *(pytest.param(WEDGES[i], marks=pytest.mark.soak) for i in (2, 3))],
+)
 def test_growth_of_random_data(wedge):
     case = CASES[wedge]
     rate, error = growth_rate(radial(case), settle=6, until=20)
