@@ -1,12 +1,15 @@
 """Figure 4.5 as a map: max Re(lambda) over internal and wall friction."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
 from matplotlib.colors import ListedColormap, SymLogNorm
 from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
 
 from hopper_workflow import artifacts, domains, jobs, plotting
 
@@ -29,15 +32,7 @@ def draw(
         whole = artifacts.read(path)
         data = domains.thinned(whole, _MOST)
         _mark_undecided(axis, data)
-        mesh = axis.pcolormesh(
-            data.delta,
-            data.phi,
-            data.abscissa.T,
-            cmap="RdBu_r",
-            norm=norm,
-            shading="nearest",
-            rasterized=True,
-        )
+        mesh = _cells(axis, data, data.abscissa, cmap="RdBu_r", norm=norm)
         known = artifacts.read(border)
         domains.hatch_unreached(axis, known)
         domains.draw_borders(axis, known)
@@ -59,18 +54,18 @@ def draw(
     return figure
 
 
+def _cells(axis: Axes, data: xr.Dataset, values: ArrayLike, **style: Any) -> QuadMesh:
+    """Colour the cells around the points of a map."""
+    return axis.pcolormesh(
+        data.delta, data.phi, np.transpose(values), shading="nearest", rasterized=True, **style
+    )
+
+
 def _mark_undecided(axis: Axes, data: xr.Dataset) -> None:
     """Grey, by reason, wherever there is no verdict."""
     for name, (color, label) in _GREYS.items():
-        mask = np.where(data.region == name, 1.0, np.nan).T
-        axis.pcolormesh(
-            data.delta,
-            data.phi,
-            mask,
-            cmap=ListedColormap([color]),
-            shading="nearest",
-            rasterized=True,
-        )
+        mask = np.where(data.region == name, 1.0, np.nan)
+        _cells(axis, data, mask, cmap=ListedColormap([color]))
         axis.fill([], [], color=color, label=label)
 
 

@@ -8,15 +8,16 @@ from math import degrees, isfinite, radians
 from pathlib import Path
 from typing import Any
 
-from hopper.arrays import Complex
+from hopper.arrays import Array, Complex
 from hopper.assessment.limits import assess_limits, tangency_coefficient
 from hopper.assessment.neutral import Interval, NeutralPoint, assess_neutral
 from hopper.assessment.radial import assess_radial
-from hopper.assessment.stability import assess_stability
+from hopper.assessment.stability import StabilityAssessment, assess_stability
 from hopper.errors import ConvergenceError, HopperError, WallFrictionError
 from hopper.problem import as_geometry
 from hopper.quantity import Quantity
 from hopper.radial.solution import solve_radial
+from hopper.stability.collocation import Parity
 from hopper_cli import sentences, text
 from hopper_cli.errors import UsageError
 from hopper_cli.outputs import write_csv
@@ -72,16 +73,10 @@ def _radial(options: Namespace) -> str:
 
 def _stability(options: Namespace) -> str:
     case = _case(options)
-    hopper = case.hopper
-    try:
-        solution = solve_radial(hopper, case.wall.friction_angle)
-        found = assess_stability(solution, options.disturbances, options.modes)
-    except ConvergenceError as error:
-        limit = assess_limits(hopper).coefficient
-        raise _explained(error, "a radial solution", limit) from None
+    found = _assessed_stability(case, options)
     _write(options, case, found)
     rows = tables.rows(found, assessments.STABILITY)
-    rows += tables.rows({"tangency": tangency_coefficient(hopper)}, assessments.TANGENCY)
+    rows += tables.rows({"tangency": tangency_coefficient(case.hopper)}, assessments.TANGENCY)
     shown = {
         parity: (modes.eigenvalues[: options.modes], modes.errors[: options.modes])
         for parity, modes in found.modes.items()
@@ -92,11 +87,10 @@ def _stability(options: Namespace) -> str:
         if values.size < options.modes
     ]
     if options.json:
-        pairs = {_JSON[parity]: _pairs(values) for parity, (values, _) in shown.items()}
         return _json(
             case.echoed(),
             rows,
-            **(dict.fromkeys(_JSON.values()) | pairs),
+            **{key: _pairs(shown.get(parity)) for parity, key in _JSON.items()},
             governed_by=found.result.governed_by,
             parity=found.result.parity,
             verdict=found.verdict,
@@ -117,11 +111,20 @@ def _stability(options: Namespace) -> str:
     )
 
 
-_JSON = {"symmetric": "eigenvalues", "asymmetric": "asymmetric_eigenvalues"}
+def _assessed_stability(case: Case, options: Namespace) -> StabilityAssessment:
+    try:
+        solution = solve_radial(case.hopper, case.wall.friction_angle)
+        return assess_stability(solution, options.disturbances, options.modes)
+    except ConvergenceError as error:
+        limit = assess_limits(case.hopper).coefficient
+        raise _explained(error, "a radial solution", limit) from None
 
 
-def _pairs(eigenvalues: Complex) -> list[list[float]]:
-    return [[mode.real, mode.imag] for mode in eigenvalues.tolist()]
+_JSON: dict[Parity, str] = {"symmetric": "eigenvalues", "asymmetric": "asymmetric_eigenvalues"}
+
+
+def _pairs(modes: tuple[Complex, Array] | None) -> list[list[float]] | None:
+    return modes and [[mode.real, mode.imag] for mode in modes[0].tolist()]
 
 
 def _neutral(options: Namespace) -> str:

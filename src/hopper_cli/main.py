@@ -89,24 +89,8 @@ def _parser() -> argparse.ArgumentParser:
         commands, "stability", "linear stability: low eigenvalues, asymptotic line, verdict"
     )
     for command, profile in ((radial, "fields over the polar angle"), (stability, "eigenvalues")):
-        _add_geometry(command)
-        command.add_argument(
-            "--model",
-            choices=["mohr-coulomb", "von-mises"],
-            default="mohr-coulomb",
-            help="yield condition, default %(default)s; von-mises: cones, radial fields only",
-        )
-        command.add_argument(
-            "--delta", type=_angle, required=True, metavar="DEG", help="angle of internal friction"
-        )
-        _add_half_angle_and_wall(command)
-        command.add_argument(
-            "--profile", type=Path, metavar="FILE", help=f"write {profile} to FILE.csv or FILE.nc"
-        )
-        command.add_argument(
-            "--plot", type=Path, metavar="FILE", help="draw them in FILE.png, .pdf or .svg"
-        )
-        command.add_argument("--force", action="store_true", help="overwrite existing files")
+        _add_hopper(command)
+        _add_files(command, profile)
     stability.add_argument(
         "--modes",
         type=_count,
@@ -127,6 +111,30 @@ def _parser() -> argparse.ArgumentParser:
             "axisymmetric and without swirl",
         )
     return parser
+
+
+def _add_hopper(command: argparse.ArgumentParser) -> None:
+    _add_geometry(command)
+    command.add_argument(
+        "--model",
+        choices=["mohr-coulomb", "von-mises"],
+        default="mohr-coulomb",
+        help="yield condition, default %(default)s; von-mises: cones, radial fields only",
+    )
+    command.add_argument(
+        "--delta", type=_angle, required=True, metavar="DEG", help="angle of internal friction"
+    )
+    _add_half_angle_and_wall(command)
+
+
+def _add_files(command: argparse.ArgumentParser, profile: str) -> None:
+    command.add_argument(
+        "--profile", type=Path, metavar="FILE", help=f"write {profile} to FILE.csv or FILE.nc"
+    )
+    command.add_argument(
+        "--plot", type=Path, metavar="FILE", help="draw them in FILE.png, .pdf or .svg"
+    )
+    command.add_argument("--force", action="store_true", help="overwrite existing files")
 
 
 def _command(

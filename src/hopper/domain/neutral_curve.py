@@ -154,7 +154,7 @@ def _follow_phi(
 ) -> CurveEnd | None:
     """Add points at growing phi; None if the fold is near."""
     current, slope = step, None
-    while current > _LEAST_STEP * step:
+    while current > step / 20:
         last = points[-1]
         hoppers.last, phi = last.member, last.friction_angle + current
         at_wall = partial(hoppers.at_wall, friction_angle=phi)
@@ -212,18 +212,17 @@ def _follow_arc(hoppers: Hoppers, points: list[_Point]) -> CurveEnd:
         found = root_near(at, 0.0, slope)
         # A root farther off than the step is long may lie behind.
         result = at(found.at) if found and abs(found.at) < step else None
-        if found is None or not isinstance(result, LinearStability):
-            step, slope = step / 2, None
-            continue
-        slope, point = found.slope, _point(hoppers, result)
-        if point.member.psi_wall_by_tau <= 0 or _at_fold(hoppers, point):
-            break
-        points.append(point)
-    try:
-        points.append(_corner(hoppers, points[-1]))
-    except ConvergenceError:
-        return "not_converged"
-    return "fold"
+        if found and isinstance(result, LinearStability):
+            slope, point = found.slope, _point(hoppers, result)
+            if point.member.psi_wall_by_tau > 0 and not _at_fold(hoppers, point):
+                points.append(point)
+                continue
+        end = _corner(hoppers, last)
+        if end and np.hypot(*(end.place - last.place)) < 2 * step:
+            points.append(end)
+            return "fold"
+        step, slope = step / 2, None
+    return "not_converged"
 
 
 def _beside(hoppers: Hoppers, place: Array, normal: Array, distance: float) -> object:
@@ -232,12 +231,12 @@ def _beside(hoppers: Hoppers, place: Array, normal: Array, distance: float) -> o
     return hoppers.with_tau(float(delta), exp(log_tau))
 
 
-def _corner(hoppers: Hoppers, near: _Point) -> _Point:
+def _corner(hoppers: Hoppers, near: _Point) -> _Point | None:
     """Return the corner: a fold with no other growing mode, where the neutral curve arrives."""
     hoppers.last = near.member
     found = root(hoppers.at_fold, near.delta, tolerance=_CORNER_TOLERANCE)
     if found is None:
-        raise ConvergenceError(f"corner not resolved near delta = {np.degrees(near.delta):.6g} deg")
+        return None
     hoppers.at_fold(found.at)
     return _point(hoppers, near.result)
 
