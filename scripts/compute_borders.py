@@ -15,7 +15,6 @@ from hopper.domain.growth import ROOT_TOLERANCE
 from hopper.domain.neutral_curve import NeutralCurve, neutral_curve
 from hopper.domain.neutral_points import neutral_delta
 from hopper.problem import Geometry, Hopper, as_geometry
-from hopper.radial.solution import solve_radial
 from hopper_data.datasets import dataset
 from hopper_data.domain import BORDERS, NEUTRAL_CURVE
 from hopper_data.tables import angle, in_degrees, within
@@ -59,12 +58,11 @@ def _check(
         neutral_delta(geometry, half_angle, phi, guess)
         for phi, guess in zip(frictions, guesses, strict=True)
     ]
-    solutions = [
-        solve_radial(Hopper(geometry, delta, half_angle), phi)
+    at = [
+        (Hopper(geometry, delta, half_angle), float(phi))
         for delta, phi in zip(deltas, frictions, strict=True)
     ]
-    compared = paper_checks.compared(solutions, **meshes)
-    return {"delta": deltas, "phi": frictions, **compared}
+    return {"delta": deltas, "phi": frictions, **paper_checks.compared(at, **meshes)}
 
 
 TABLE = (

@@ -14,7 +14,6 @@ from hopper.domain.borders import tangency_friction
 from hopper.domain.stability_map import sweep_friction
 from hopper.problem import Hopper
 from hopper.radial.friction_limit import friction_limit
-from hopper.radial.solution import solve_radial
 from hopper_data.datasets import dataset
 from hopper_data.domain import SWEEP
 from hopper_data.inputs import hopper_of
@@ -27,27 +26,44 @@ def compute_friction_curve(
     half_angle_deg: float,
     deltas_deg: Sequence[float],
     mu: dict[str, Any],
-    check: dict[str, Any],
+    check: dict[str, Any] | None = None,
 ) -> xr.Dataset:
-    """Sweep mu for every delta, and check a few points of each curve by the paper's algorithm."""
-    friction = ranges.spaced(0, **mu)
-    points, meshes = check["points"], {name: check[name] for name in check if name != "points"}
+    """Sweep mu for every delta, and compute points of each curve by the paper's algorithm.
+
+    A curve ends at the limit of friction where that comes before the end of the range.
+    """
     hoppers = [hopper_of(geometry, delta, half_angle_deg) for delta in deltas_deg]
     ends = [_ends(hopper) for hopper in hoppers]
-    checked = [np.linspace(0, min(end["limit"], mu["stop"]), points + 1)[:-1] for end in ends]
-    solutions = [
-        solve_radial(hopper, atan(value))
+    frictions = [_frictions(end["limit"], **mu) for end in ends]
+    result = {
+        "sweeps": [
+            sweep_friction(hopper, np.arctan(row))
+            for hopper, row in zip(hoppers, frictions, strict=True)
+        ],
+        "ends": ends,
+        "mu": frictions,
+        "check": check and _checked(hoppers, [row[-1] for row in frictions], **check),
+        "delta": deltas_deg,
+    }
+    return dataset(result, TABLE, AXES)
+
+
+def _frictions(limit: float, stop: float | str, points: int) -> np.ndarray:
+    if stop == "limit" or limit <= float(stop):
+        return ranges.closing_in(limit, points)
+    return ranges.spaced(0, float(stop), points)
+
+
+def _checked(
+    hoppers: Sequence[Hopper], ends: Sequence[float], points: int, **meshes: Any
+) -> dict[str, Any]:
+    checked = [ranges.spaced(0, end, points) for end in ends]
+    at = [
+        (hopper, atan(value))
         for hopper, frictions in zip(hoppers, checked, strict=True)
         for value in frictions
     ]
-    result = {
-        "sweeps": [sweep_friction(hopper, np.arctan(friction)) for hopper in hoppers],
-        "ends": ends,
-        "check": {"mu": checked, **paper_checks.compared(solutions, np.shape(checked), **meshes)},
-        "delta": deltas_deg,
-        "mu": friction,
-    }
-    return dataset(result, TABLE, AXES)
+    return {"mu": checked, **paper_checks.compared(at, np.shape(checked), **meshes)}
 
 
 def _ends(hopper: Hopper) -> dict[str, float]:
@@ -60,16 +76,14 @@ def _ends(hopper: Hopper) -> dict[str, float]:
 
 
 TABLE = (
-    *(replace(variable, over="delta mu") for variable in within("sweeps", SWEEP)),
+    *(replace(variable, over="delta point") for variable in within("sweeps", SWEEP)),
+    number("mu", "coefficient of wall friction", "delta point"),
     number("tangency_mu", "mu at the tangency", "delta", "ends.tangency"),
     number("limit_mu", "largest mu with a solution", "delta", "ends.limit"),
     number("check_mu", "mu of the checked point", "delta check", "check.mu"),
     *within("check", paper_checks.table("delta check")),
 )
-AXES = (
-    in_degrees("delta", "angle of internal friction", "delta"),
-    number("mu", "coefficient of wall friction", "mu"),
-)
+AXES = (in_degrees("delta", "angle of internal friction", "delta"),)
 
 if __name__ == "__main__":
     jobs.run(

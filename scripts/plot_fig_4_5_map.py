@@ -57,7 +57,7 @@ def draw(
 def _cells(axis: Axes, data: xr.Dataset, values: ArrayLike, **style: Any) -> QuadMesh:
     """Colour the cells around the points of a map."""
     return axis.pcolormesh(
-        data.delta, data.phi, np.transpose(values), shading="nearest", rasterized=True, **style
+        data.delta, data.phi, np.asarray(values).T, shading="nearest", rasterized=True, **style
     )
 
 

@@ -1,5 +1,7 @@
 """How the stable domain, its borders and its maps are drawn."""
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -14,15 +16,24 @@ def shade(axis: Axes, data: xr.Dataset) -> None:
     delta, limit = data.delta.values, np.nan_to_num(data.limit_phi.values)
     axis.fill_between(delta, 0, delta, color=_NO_SOLUTION, linewidth=0, label="no radial solution")
     axis.fill_between(delta, 0, limit, color=_UNSTABLE, linewidth=0, label="unstable")
+    axis.fill(*_domain(data), color=_STABLE, linewidth=0, label="stable")
+    hatch_unreached(axis, data)
+
+
+def outline(axis: Axes, data: xr.Dataset, **style: Any) -> None:
+    """Draw the border of the stable domain, without its right edge."""
+    delta, phi = _domain(data)
+    axis.plot(delta[:-1], phi[:-1], **style)
+
+
+def _domain(data: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
+    """Return the neutral curve, the limit from its end on, and the right lower corner."""
+    delta, limit = data.delta.values, np.nan_to_num(data.limit_phi.values)
     beyond = (delta > data.neutral_delta.values[-1]) & (limit > 0)
-    axis.fill(
+    return (
         np.concatenate([data.neutral_delta, delta[beyond], delta[beyond][-1:]]),
         np.concatenate([data.neutral_phi, limit[beyond], [0.0]]),
-        color=_STABLE,
-        linewidth=0,
-        label="stable",
     )
-    hatch_unreached(axis, data)
 
 
 def hatch_unreached(axis: Axes, data: xr.Dataset) -> None:

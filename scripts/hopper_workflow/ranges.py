@@ -8,6 +8,17 @@ def steps(start: float, stop: float, step: float) -> np.ndarray:
     return np.arange(start, stop + 1e-6 * step, step)
 
 
+def closing_in(stop: float, points: int) -> np.ndarray:
+    """Return values from 0 that close in on stop as a parabola does on its vertex.
+
+    So a curve with a vertical tangent at stop is drawn in even steps. The last value stays below
+    stop by what rounding could make of it.
+    """
+    left = np.linspace(1, 0, points)
+    left[-1] = 1e-6
+    return stop * (1 - left**2)
+
+
 def spaced(start: float, stop: float, points: int) -> np.ndarray:
     """Return equally spaced values."""
     return np.linspace(start, stop, points)

@@ -21,11 +21,11 @@ def brackets(found, places):
 
 @pytest.mark.parametrize("root", [0.3, 3.14, 5, 9.9])
 def test_a_continuous_sign_change(root):
-    for function in (lambda x: root - x, lambda x: (x - root) * (1 + x / 5)):
-        (found,) = sign_changes(lambda x, f=function: f(x + 1e-9), PLACES, WIDTH)
+    for slope in (-1.0, 0.3):
+        (found,) = sign_changes(lambda x: slope * (x - root) * (1 + x / 50), PLACES, WIDTH)  # noqa: B023
         brackets([found], [root])
         assert not found.jump
-        assert found.before * found.after < 0
+        assert (found.before > 0) != (found.after > 0)
 
 
 def test_every_sign_change_of_a_cosine():
@@ -42,7 +42,7 @@ def test_a_sign_change_that_is_a_jump(at):
     assert (found.before, found.after) == pytest.approx((1 - at / 20, -1 - at / 20), abs=1e-3)
 
 
-@pytest.mark.parametrize("at", [4.4, 5.71])
+@pytest.mark.parametrize("at", [4.4, 5.4])
 def test_a_jump_beside_a_sign_change(at):
     """A falling line that jumps up by a third of a step of the scan, as the paper's abscissa."""
     function = lambda x: 5 - x + 0.33 * (x > at)  # noqa: E731

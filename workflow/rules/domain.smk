@@ -33,6 +33,22 @@ rule compute_friction_curve:
         f"{SCRIPTS}/compute_friction_curve.py"
 
 
+use rule compute_friction_curve as compute_second_row with:
+    output:
+        artifact="results/friction/{figure}/{geometry}_second.nc",
+        provenance="results/friction/{figure}/{geometry}_second.provenance.json",
+    log:
+        "logs/compute_second_row/{figure}_{geometry}.log",
+    benchmark:
+        "logs/compute_second_row/{figure}_{geometry}.benchmark.tsv"
+    params:
+        geometry="{geometry}",
+        half_angle_deg=curve("half_angle_deg"),
+        deltas_deg=curve("deltas_deg"),
+        mu=curve("second_row"),
+        check=None,
+
+
 rule compute_map_chunk:
     input:
         code=code_of("compute_map_chunk"),
@@ -107,6 +123,27 @@ rule compute_borders:
         f"{SCRIPTS}/compute_borders.py"
 
 
+rule compute_paper_border:
+    input:
+        border="results/borders/cone_{angle}.nc",
+        code=code_of("compute_paper_border"),
+    output:
+        artifact="results/paper_border/cone_{angle}.nc",
+        provenance="results/paper_border/cone_{angle}.provenance.json",
+    log:
+        "logs/compute_paper_border/cone_{angle}.log",
+    benchmark:
+        "logs/compute_paper_border/cone_{angle}.benchmark.tsv"
+    conda:
+        "../../envs/hopper.yaml"
+    threads: 1
+    params:
+        **config["paper_border"],
+        half_angle_deg=lambda wildcards: float(wildcards.angle),
+    script:
+        f"{SCRIPTS}/compute_paper_border.py"
+
+
 rule compute_domain_angle:
     input:
         code=code_of("compute_domain_angle"),
@@ -128,6 +165,7 @@ rule compute_domain_angle:
 
 rule plot_fig_4_4:
     input:
+        unpack(second_row),
         wedge="results/friction/{figure}/wedge.nc",
         cone="results/friction/{figure}/cone.nc",
         code=code_of("plot_fig_4_4"),
@@ -162,6 +200,7 @@ rule plot_fig_4_4:
 rule plot_fig_4_5:
     input:
         borders=expand("results/borders/cone_{angle}.nc", angle=MAP["half_angles_deg"]),
+        papers=expand("results/paper_border/cone_{angle}.nc", angle=MAP["half_angles_deg"]),
         code=code_of("plot_fig_4_5"),
     output:
         png=report(

@@ -51,7 +51,7 @@ def large_friction_destabilises(
         sum(good),
         len(good),
         f"{_named(good, *artifacts)} Curves end at the limit of friction or at mu = "
-        f"{values(wedge_10, 'mu')[-1]:g}.",
+        f"{values(wedge_10, 'mu').max():g}.",
     )
 
 
@@ -64,7 +64,7 @@ def friction_range_is_regular(
     return counted(
         sum(good),
         len(good),
-        f"{_named(good, *artifacts)} Range plotted: mu up to {values(wedge_10, 'mu')[-1]:g}; the "
+        f"{_named(good, *artifacts)} Range plotted: mu up to {values(wedge_10, 'mu').max():g}; the "
         f"earliest limit of friction is mu = {ends.min():.3f}.",
     )
 
@@ -73,7 +73,7 @@ def log_r_is_a_time_for_all(
     wedge_10: xr.Dataset, cone_10: xr.Dataset, wedge_30: xr.Dataset, cone_30: xr.Dataset
 ) -> Finding:
     artifacts = (wedge_10, cone_10, wedge_30, cone_30)
-    last = float(values(wedge_10, "mu")[-1])
+    last = float(values(wedge_10, "mu").max())
     ends = np.concatenate([values(data, "limit_mu") for data in artifacts])
     tangencies = np.concatenate([values(data, "tangency_mu", gaps=True) for data in artifacts])
     good = [not tangency < min(end, last) for tangency, end in zip(tangencies, ends, strict=True)]
@@ -173,15 +173,25 @@ def domain_shrinks_with_opening(
     errors = [number(domain, "area_error", half_angle=a) for a in (wide_angle, narrow_angle)]
     ratio = small / large
     error = ratio * (errors[0] / small + errors[1] / large)
-    start = [float(values(data, "neutral_delta", point=0)) for data in (narrow, wide)]
+    start = [float(values(data, "neutral_delta")[0]) for data in (narrow, wide)]
+    outside, total = _outside(wide, narrow), values(wide, "neutral_delta").size
     falling = bool(np.all(np.diff(values(domain, "area")) < 0))
     remark = (
         f"Area {large:.0f} and {small:.0f} square degrees, delta up to 60 deg; falls over all half "
         f"angles computed: {'yes' if falling else 'no'}. Not everywhere: on smooth walls the wider "
-        f"hopper is stable from {start[1]:.2f} deg, the narrower from {start[0]:.2f} deg."
+        f"hopper is stable from {start[1]:.2f} deg, the narrower from {start[0]:.2f} deg; "
+        f"{outside} of {total} points of the wider one's neutral curve lie outside the narrower's."
     )
     finding = below(ratio, 1 - considerable, error, remark)
-    return limited(finding, start[1] < start[0] or not falling)
+    return limited(finding, bool(outside) or not falling)
+
+
+def _outside(curve: xr.Dataset, other: xr.Dataset) -> int:
+    """Count points of a neutral curve at a smaller delta than another's, at the same friction."""
+    delta, phi = (values(other, f"neutral_{name}") for name in ("delta", "phi"))
+    rising = np.concatenate([[True], np.diff(np.maximum.accumulate(phi)) > 0])
+    there = np.interp(values(curve, "neutral_phi"), phi[rising], delta[rising])
+    return int(np.sum(values(curve, "neutral_delta") < there))
 
 
 def domain_is_inside_the_curve(narrow: xr.Dataset, wide: xr.Dataset) -> Finding:

@@ -19,7 +19,7 @@ _STEEP = 5
 # A step is no kink's, which lies between its neighbours, if it is this much off their mean.
 _UNLIKE = 1
 # How many steps a bracket of a sign change, and each of its neighbours, is divided into.
-_PARTS = 4
+_PARTS = 3
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ def sign_changes(
         raise InvalidParameterError(f"width = {width:g} must be positive")
     values = np.array([function(float(x)) for x in grid])
     found: dict[float, Change] = {}
-    for i in np.flatnonzero(_crossed(values)):
+    for i in map(int, np.flatnonzero(_crossed(values))):
         first, last = max(i - 1, 0), min(i + 2, grid.size - 1)
         x = np.linspace(grid[first], grid[last], _PARTS * (last - first) + 1)
         y = np.array([function(float(place)) for place in x])
@@ -74,7 +74,7 @@ def sign_changes(
             change = _narrowed(function, x, y, int(j), width)
             if change.jump or (change.before > 0) != (change.after > 0):
                 found[change.place] = change
-    return [found[place] for place in sorted(found)]
+    return sorted(found.values(), key=lambda change: change.place)
 
 
 def _crossed(values: Array) -> NDArray[np.bool_]:
