@@ -10,10 +10,12 @@ and differ only in the four numbers of :class:`YieldCondition`.
 """
 
 from dataclasses import dataclass
-from math import asin, atan, cos, degrees, sin, sqrt, tan
+from math import asin, atan, cos, degrees, pi, sin, sqrt, tan
 
+from hopper.arguments import Radians, checked
 from hopper.brief import brief
 from hopper.errors import InvalidParameterError, WallFrictionError
+from hopper.values import require_angle, shown
 
 _ROUNDING = 1e-14
 
@@ -30,16 +32,21 @@ class YieldCondition:
 
     __repr__ = brief("name")
 
-    def wall_angle(self, delta: float, friction_angle: float) -> float:
+    @checked
+    def wall_angle(self, delta: Radians, friction_angle: Radians) -> float:
         """Return psi_w (radians) of a wall of the given friction angle (radians).
 
         Solves T_rt = -tan(phi) T_tt, (2.15), on the branch of smaller psi.
 
         Raises
         ------
+        InvalidParameterError
+            If an angle is out of range.
         WallFrictionError
             If no angle satisfies the wall law.
         """
+        require_angle("delta", delta)
+        require_angle("friction_angle", friction_angle, zero_allowed=True)
         inclination = atan(self.angular * tan(friction_angle))
         ratio = sin(inclination) / (self.angular * sin(delta))
         if ratio > 1 + _ROUNDING:
@@ -51,20 +58,47 @@ class YieldCondition:
             )
         return 0.5 * (inclination + asin(min(ratio, 1.0)))
 
-    def friction_angle(self, delta: float, psi: float) -> float:
-        """Return phi (radians) of the wall on which the Sokolovskii angle is ``psi`` (radians)."""
+    @checked
+    def friction_angle(self, delta: Radians, psi: Radians) -> float:
+        """Return phi (radians) of the wall on which the Sokolovskii angle is ``psi`` (radians).
+
+        Raises
+        ------
+        InvalidParameterError
+            If an angle is out of range.
+        """
+        require_angle("delta", delta)
+        if not abs(psi) <= pi:
+            raise InvalidParameterError(
+                f"psi = {degrees(psi):.6g} deg is out of range: it must lie in [-180, 180] deg"
+            )
         s = sin(delta)
         return atan(s * sin(2 * psi) / (1 + self.angular * s * cos(2 * psi)))
 
-    def largest_friction_angle(self, delta: float) -> float:
-        """Return the largest phi (radians) for which :meth:`wall_angle` exists."""
+    @checked
+    def largest_friction_angle(self, delta: Radians) -> float:
+        """Return the largest phi (radians) for which :meth:`wall_angle` exists.
+
+        Raises
+        ------
+        InvalidParameterError
+            If an angle is out of range.
+        """
+        require_angle("delta", delta)
         return atan(tan(asin(self.angular * sin(delta))) / self.angular)
 
-    def singular_angle(self, delta: float) -> float:
+    @checked
+    def singular_angle(self, delta: Radians) -> float:
         """Return the psi (radians) at which the radial stress equations become singular.
 
         There the coefficient of (sigma', psi'), 2 s (angular s + cos 2psi), vanishes.
+
+        Raises
+        ------
+        InvalidParameterError
+            If an angle is out of range.
         """
+        require_angle("delta", delta)
         return asin(self.angular * sin(delta)) / 2 + asin(1) / 2
 
 
@@ -85,5 +119,7 @@ def yield_condition(name: str) -> YieldCondition:
         If the name is neither.
     """
     if not isinstance(name, str) or name not in _BY_NAME:
-        raise InvalidParameterError(f"model = {name!r} is unknown: use {' or '.join(_BY_NAME)}")
+        raise InvalidParameterError(
+            f"model = {shown(name)} is unknown: use {' or '.join(_BY_NAME)}"
+        )
     return _BY_NAME[name]

@@ -75,7 +75,8 @@ def test_fold_and_what_grows_there_besides_its_zero(fold):
     assert member.tau * fold["sigma_axis"] == pytest.approx(1, rel=1e-7)
     solution = solution_of(member)
     assert solution.friction_angle == pytest.approx(radians(fold["phi_deg"]), abs=1e-12)
-    hoppers = Hoppers("cone", half_angle, last=start)
+    hoppers = Hoppers("cone", half_angle)
+    hoppers.last = start
     modes = staggered_modes(solution, 100)
     zero = np.abs(modes).argmin()
     assert np.abs(modes[zero]) < 1e-6

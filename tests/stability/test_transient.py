@@ -244,7 +244,7 @@ def basis_of(kept, n=32, **options):
 @pytest.mark.parametrize("half", HALVES)
 def test_nothing_kept(half):
     with pytest.raises(InvalidParameterError, match=f"no {half} eigenvalue is kept: widen the fil"):
-        modal_basis(radial("wedge", 35, 10), 32, half, [])
+        modal_basis(radial("wedge", 35, 10), 32, half, np.empty(0, complex))
 
 
 def test_kept_eigenvalues_not_closed_under_conjugation():
@@ -289,13 +289,15 @@ def test_unknown_norms():
         lambda norm: half_weights(hopper, 32, norm),
         lambda norm: basis_of(kept_32(), norm=norm),
     ):
-        with pytest.raises(InvalidParameterError, match="norm = 'l2' is unknown: use one of disc"):
+        with pytest.raises(
+            InvalidParameterError, match="norm = 'l2' is unknown: use discrete or L2"
+        ):
             call("l2")
 
 
 @pytest.mark.parametrize("elapsed", [-1e-9, [0, -1], np.nan, np.inf, [1, np.nan]])
 def test_bad_times(elapsed):
-    with pytest.raises(InvalidParameterError, match="must be finite and not negative: elapsed = -"):
+    with pytest.raises(InvalidParameterError, match=r"^elapsed .*must be finite"):
         propagator_norm([basis_of(kept_32())], elapsed)
 
 

@@ -1,6 +1,7 @@
 """The paper's algorithm along curves, and curves up to the limit of friction."""
 
 from math import radians, tan
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from compute_friction_curve import compute_friction_curve
 from compute_paper_border import compute_paper_border
 from hopper import Hopper, friction_limit, linear_stability, solve_radial
 
-MESHES = {"nodes": 400, "coarse_nodes": 200, "tolerance": 1e-3}
+MESHES: dict[str, Any] = {"nodes": 400, "coarse_nodes": 200, "tolerance": 1e-3}
 
 
 def test_values_close_in_on_the_end():

@@ -5,6 +5,7 @@ from math import pi, tan
 
 import numpy as np
 
+from hopper.arguments import checked
 from hopper.assessment.propagation import ROUNDING, with_errors
 from hopper.brief import brief
 from hopper.domain.borders import tangency_friction
@@ -56,6 +57,7 @@ class Limits:
         return self.coefficient if self.friction and self.friction.end == "fold" else None
 
 
+@checked
 def assess_limits(hopper: Hopper) -> Limits:
     """Return the limits of a hopper's wall friction."""
     mass_flow = _mass_flow(hopper)
@@ -67,6 +69,7 @@ def assess_limits(hopper: Hopper) -> Limits:
     return Limits(friction, coefficient(largest), mass_flow, tangency_coefficient(hopper))
 
 
+@checked
 def coefficient(angle: Quantity) -> Quantity:
     """Return mu = tan(phi) of a friction angle phi (radians)."""
     mu = tan(angle.value)
@@ -83,6 +86,7 @@ def _mass_flow(hopper: Hopper) -> Quantity | None:
     return Quantity(phi, abs(rounded - phi) + ROUNDING)
 
 
+@checked
 def tangency_coefficient(hopper: Hopper) -> Quantity | None:
     """Return the mu at which psi reaches pi/4 - delta/2, None where it does not."""
     if hopper.material != MOHR_COULOMB:

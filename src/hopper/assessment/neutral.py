@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from math import inf, radians
 
+from hopper.arguments import Radians, checked
 from hopper.assessment.propagation import ROUNDING
 from hopper.assessment.stability import abscissa_with_error
 from hopper.brief import brief
@@ -61,10 +62,11 @@ class NeutralAssessment:
         return self.points[0].delta if self.points else None
 
 
+@checked
 def assess_neutral(
     geometry: Geometry,
-    half_angle: float,
-    friction_angle: float,
+    half_angle: Radians,
+    friction_angle: Radians,
     disturbances: Disturbances | None = None,
 ) -> NeutralAssessment:
     """Return what is stable of all Mohr-Coulomb hoppers with one wall; angles in radians.

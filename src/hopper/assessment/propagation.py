@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from hopper.arguments import checked
 from hopper.arrays import Array
 from hopper.quantity import Quantity
 from hopper.radial.solution import RadialSolution
@@ -19,6 +20,7 @@ ROUNDING = 4 * float(np.finfo(float).eps)
 SHIFT = 1e-8
 
 
+@checked
 def with_errors(
     solution: RadialSolution, numbers: Callable[[RadialSolution], Array]
 ) -> list[Quantity]:
@@ -29,6 +31,7 @@ def with_errors(
     return [Quantity(float(v), float(e)) for v, e in zip(values, errors, strict=True)]
 
 
+@checked
 def propagated(solution: RadialSolution, change: Callable[[RadialSolution], Array]) -> Array:
     """Return the sum of the changes that the error of the fields makes, to first order.
 
@@ -55,6 +58,7 @@ def propagated(solution: RadialSolution, change: Callable[[RadialSolution], Arra
     return errors / SHIFT @ np.array([change(one) for one in shifted])
 
 
+@checked
 def wall_angle_rounding(solution: RadialSolution) -> float:
     """Return the rounding of psi_w (radians), large where the wall law determines it badly."""
     delta, law, psi = solution.hopper.delta, solution.hopper.material, solution.psi_wall

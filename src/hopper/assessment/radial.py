@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hopper.arguments import Radians, checked
 from hopper.arrays import Array
 from hopper.assessment.limits import Limits, assess_limits
 from hopper.assessment.propagation import SHIFT, wall_angle_rounding, with_errors
@@ -56,13 +57,15 @@ class RadialAssessment:
 
     __repr__ = brief("sigma_axis", "sigma_wall", "flow_factor", "solutions")
 
+    @checked
     def profiles(self, theta: Array) -> tuple[Array, Array, Array | None]:
         """Return sigma, psi and u at ``theta`` (radians), each of shape (n,); u None if unknown."""
         sigma, psi, _, _ = self.solution.fields(theta)
         return sigma, psi, self.velocity.at(theta) if self.velocity else None
 
 
-def assess_radial(hopper: Hopper, friction_angle: float) -> RadialAssessment:
+@checked
+def assess_radial(hopper: Hopper, friction_angle: Radians) -> RadialAssessment:
     """Solve for the physical branch and return it in numbers.
 
     Raises
@@ -73,6 +76,7 @@ def assess_radial(hopper: Hopper, friction_angle: float) -> RadialAssessment:
     return describe_radial(solve_radial(hopper, friction_angle))
 
 
+@checked
 def describe_radial(solution: RadialSolution) -> RadialAssessment:
     """Return a radial solution of the physical branch in numbers."""
     notes = []

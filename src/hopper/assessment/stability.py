@@ -7,6 +7,7 @@ from math import exp, pi
 import numpy as np
 from scipy.optimize import minimize_scalar
 
+from hopper.arguments import checked
 from hopper.arrays import Complex
 from hopper.assessment.propagation import ROUNDING, propagated
 from hopper.brief import brief
@@ -108,6 +109,7 @@ class StabilityAssessment:
         return "stable_symmetric_only" if symmetric else "unstable"
 
 
+@checked
 def assess_stability(
     solution: RadialSolution, disturbances: Disturbances | None = None, count: int = 6
 ) -> StabilityAssessment:
@@ -140,6 +142,7 @@ def assess_stability(
     )
 
 
+@checked
 def abscissa_with_error(
     solution: RadialSolution, disturbances: Disturbances | None = None
 ) -> tuple[LinearStability, Quantity]:

@@ -6,6 +6,7 @@ Every number carries an absolute error.
 from dataclasses import dataclass
 from typing import Literal, get_args
 
+from hopper.arguments import Radians, checked
 from hopper.assessment.limits import Limits, assess_limits
 from hopper.assessment.radial import RadialAssessment, assess_radial
 from hopper.assessment.stability import StabilityAssessment, assess_stability
@@ -50,7 +51,8 @@ class Assessment:
     __repr__ = brief("outcome", "stability.abscissa", "limits.coefficient")
 
 
-def assess(hopper: Hopper, friction_angle: float) -> Assessment:
+@checked
+def assess(hopper: Hopper, friction_angle: Radians) -> Assessment:
     """Return what is known about a hopper with a wall of friction ``friction_angle`` (radians).
 
     Raises

@@ -11,9 +11,9 @@ from math import pi
 from typing import Self
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
+from hopper.arguments import Radians, RealRow, checked
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.domain.growth import ROOT_TOLERANCE
@@ -27,6 +27,7 @@ from hopper.radial.solution import solution_of
 from hopper.stability.tilted import tangency_angle
 
 
+@checked
 def friction_reaching(hopper: Hopper, psi: float) -> float | None:
     """Return the wall friction angle (radians) at which the largest psi equals ``psi`` (radians).
 
@@ -75,6 +76,7 @@ def _friction_between(below: Member, above: Member, psi: float) -> float | None:
     return law.friction_angle(delta, reached.psi_wall)
 
 
+@checked
 def tangency_friction(hopper: Hopper) -> float | None:
     """Return the wall friction angle (radians) at which psi first reaches pi/4 - delta/2.
 
@@ -84,6 +86,7 @@ def tangency_friction(hopper: Hopper) -> float | None:
     return friction_reaching(hopper, tangency_angle(hopper.delta))
 
 
+@checked
 def singular_velocity_friction(hopper: Hopper) -> float | None:
     """Return the wall friction angle (radians) at which psi reaches pi/4, None as above."""
     return friction_reaching(hopper, pi / 4)
@@ -124,7 +127,8 @@ class Borders:
         return type(self)(*(values[every] for values in vars(self).values()))
 
 
-def borders(geometry: Geometry, half_angle: float, deltas: ArrayLike) -> Borders:
+@checked
+def borders(geometry: Geometry, half_angle: Radians, deltas: RealRow) -> Borders:
     """Return the borders of what is known about a hopper's stability over ``deltas`` (radians).
 
     Raises
@@ -132,7 +136,7 @@ def borders(geometry: Geometry, half_angle: float, deltas: ArrayLike) -> Borders
     ConvergenceError
         If a radial solution on a border is not resolved.
     """
-    delta = np.asarray(deltas, dtype=float)
+    delta = np.asarray(deltas)
     table = np.full((4, delta.size), np.nan)
     ends = []
     for i, value in enumerate(delta):
@@ -152,6 +156,7 @@ def borders(geometry: Geometry, half_angle: float, deltas: ArrayLike) -> Borders
     return Borders(delta, table[0], table[1], tuple(ends), table[2], table[3])
 
 
+@checked
 def stable_outline(curve: NeutralCurve, found: Borders) -> tuple[Array, Array]:
     """Return delta and phi (radians) along the outline of the stable domain, closed by the caller.
 
@@ -167,6 +172,7 @@ def stable_outline(curve: NeutralCurve, found: Borders) -> tuple[Array, Array]:
     )
 
 
+@checked
 def stable_area(curve: NeutralCurve, found: Borders) -> tuple[float, float]:
     """Return the area (radians squared) of the stable domain, and of its part with psi < pi/4.
 

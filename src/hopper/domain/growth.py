@@ -10,6 +10,7 @@ from typing import Literal
 
 import numpy as np
 
+from hopper.arguments import checked
 from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.problem import Geometry, Hopper, as_geometry, require_angle
 from hopper.radial.collocation import Closure, Member, solve
@@ -52,16 +53,18 @@ class Hoppers:
     geometry: Geometry
     half_angle: float
     disturbances: Disturbances | None = None
-    last: Member | None = field(default=None, repr=False)
+    last: Member | None = field(default=None, init=False, repr=False)
 
     def __post_init__(self) -> None:
         require_angle("half_angle", self.half_angle)
         parities_among(self.disturbances, as_geometry(self.geometry))
 
+    @checked
     def hopper(self, delta: float) -> Hopper:
         """Return the hopper with internal friction delta (radians)."""
         return Hopper(self.geometry, delta, self.half_angle)
 
+    @checked
     def at_wall(self, delta: float, friction_angle: float) -> LinearStability | Missing:
         """Return the stability at a wall friction, or what is missing; angles in radians."""
         hopper = self.hopper(delta)
@@ -73,6 +76,7 @@ class Hoppers:
         except ConvergenceError:
             return "not_converged"
 
+    @checked
     def with_tau(self, delta: float, tau: float) -> LinearStability | Missing:
         """Return the stability of the member with the given tau, close to the last one."""
         try:
@@ -81,6 +85,7 @@ class Hoppers:
         except ConvergenceError:
             return "not_converged"
 
+    @checked
     def at_fold(self, delta: float) -> float:
         """Return the spectral abscissa at the fold, near the last member, without the zero mode.
 
@@ -120,6 +125,7 @@ class Root:
     slope: float
 
 
+@checked
 def root_near(
     at: Callable[[float], object], guess: float, slope: float | None = None
 ) -> Root | None:
@@ -138,6 +144,7 @@ def root_near(
     return root(growth, guess, slope)
 
 
+@checked
 def root(
     growth: Callable[[float], float],
     guess: float,

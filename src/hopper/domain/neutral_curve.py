@@ -12,15 +12,15 @@ from math import exp, log, prod
 from typing import Literal, Self, get_args
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
+from hopper.arguments import Positive, Radians, RealLike, checked
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.domain.growth import ROOT_TOLERANCE, Hoppers, root, root_near
 from hopper.domain.neutral_points import neutral_delta
 from hopper.errors import ConvergenceError, InvalidParameterError
-from hopper.problem import Geometry, is_real
+from hopper.problem import Geometry
 from hopper.radial.collocation import Member
 from hopper.stability.collocation import Parity
 from hopper.stability.modes import Disturbances, Governor, LinearStability
@@ -60,7 +60,8 @@ class NeutralCurve:
 
     __repr__ = brief("friction_angle deg", "delta deg", "end")
 
-    def first_delta(self, friction_angle: ArrayLike) -> Array:
+    @checked
+    def first_delta(self, friction_angle: RealLike) -> Array:
         """Return the least delta on the curve at wall frictions, interpolated; NaN above it."""
         rising = slice(0, int(np.argmax(self.friction_angle)) + 1)
         known = self.friction_angle[rising], self.delta[rising]
@@ -97,10 +98,11 @@ class _Point:
         return np.array([self.delta, log(self.member.tau)]) / _UNIT
 
 
+@checked
 def neutral_curve(
     geometry: Geometry,
-    half_angle: float,
-    step: float,
+    half_angle: Radians,
+    step: Positive,
     largest_delta: float = np.pi / 3,
     disturbances: Disturbances | None = None,
 ) -> NeutralCurve:
@@ -126,10 +128,13 @@ def neutral_curve(
     NoNeutralPointError
         If not even the smooth wall has a neutral delta.
     """
-    if not (is_real(step) and 0 < step < np.inf):
-        raise InvalidParameterError(f"step = {step!r} must be a positive number, in radians")
     hoppers = Hoppers(geometry, half_angle, disturbances)
     start = neutral_delta(geometry, half_angle, 0.0, disturbances=disturbances)
+    if largest_delta <= start:
+        raise InvalidParameterError(
+            f"largest_delta = {np.degrees(largest_delta):.6g} deg is out of range: the curve "
+            f"starts at {np.degrees(start):.6g} deg"
+        )
     points = [_point(hoppers, hoppers.at_wall(start, 0.0))]
     end = _follow_phi(hoppers, points, step, largest_delta)
     if end is None:
@@ -193,7 +198,12 @@ def _at_delta(hoppers: Hoppers, delta: float, below: _Point, above: float) -> _P
         result = hoppers.at_wall(delta, phi)
         return result.abscissa if isinstance(result, LinearStability) else np.inf
 
-    phi = brentq(growth, below.friction_angle, above, xtol=ROOT_TOLERANCE)
+    try:
+        phi = brentq(growth, below.friction_angle, above, xtol=ROOT_TOLERANCE)
+    except ValueError:  # no change of sign
+        raise ConvergenceError(
+            f"neutral point lost at delta = {np.degrees(delta):.6g} deg: give a smaller step"
+        ) from None
     return _point(hoppers, hoppers.at_wall(delta, phi))
 
 
@@ -241,6 +251,7 @@ def _corner(hoppers: Hoppers, near: _Point) -> _Point | None:
     return _point(hoppers, near.result)
 
 
+@checked
 def corner(curve: NeutralCurve) -> tuple[float, float] | None:
     """Return delta and phi (radians) of the corner that ends a neutral curve; None without one."""
     if curve.end != "fold":

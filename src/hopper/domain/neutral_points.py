@@ -10,9 +10,15 @@ from typing import Literal, get_args
 import numpy as np
 from scipy.optimize import brentq
 
+from hopper.arguments import Positive, Radians, checked
 from hopper.brief import brief
 from hopper.domain.growth import COARSE, ROOT_TOLERANCE, Hoppers, Missing, root_near
-from hopper.errors import ConvergenceError, HopperError, NoRadialSolutionError
+from hopper.errors import (
+    ConvergenceError,
+    HopperError,
+    InvalidParameterError,
+    NoRadialSolutionError,
+)
 from hopper.problem import Geometry, require_angle
 from hopper.radial.friction_limit import End, friction_limit
 from hopper.stability.modes import Disturbances, LinearStability
@@ -26,6 +32,7 @@ INTERVAL_ENDS: tuple[IntervalEnd, ...] = (
 _STEP, _STEEPEST = radians(1), radians(89)
 # Distance from an edge at which the abscissa is looked at.
 _INSIDE = 1e-7
+_LEAST_STEP = 1e-4
 
 
 class NoNeutralPointError(HopperError):
@@ -68,12 +75,13 @@ class _Sample:
     edge: IntervalEnd | None = None
 
 
+@checked
 def stable_deltas(
     geometry: Geometry,
-    half_angle: float,
-    friction_angle: float,
+    half_angle: Radians,
+    friction_angle: Radians,
     disturbances: Disturbances | None = None,
-    step: float = _STEP,
+    step: Positive = _STEP,
 ) -> StableDeltas:
     """Return all neutral deltas and stable intervals at one wall friction.
 
@@ -99,6 +107,10 @@ def stable_deltas(
         If no hopper has a radial solution at this wall friction.
     """
     require_angle("friction_angle", friction_angle, zero_allowed=True)
+    if step < _LEAST_STEP:
+        raise InvalidParameterError(
+            f"step = {step:.3g} is too short: give {_LEAST_STEP:.0e} radians at least"
+        )
     hoppers = Hoppers(geometry, half_angle, disturbances)
     neutral: list[float] = []
     intervals: list[StableInterval] = []
@@ -130,10 +142,11 @@ def _marks(
         yield run[-1].delta, run[-1].edge or "steepest_looked_at"
 
 
+@checked
 def neutral_delta(
     geometry: Geometry,
-    half_angle: float,
-    friction_angle: float,
+    half_angle: Radians,
+    friction_angle: Radians,
     guess: float | None = None,
     disturbances: Disturbances | None = None,
 ) -> float:

@@ -3,8 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
+from hopper.arguments import RealRow, checked
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.errors import ConvergenceError, InvalidParameterError
@@ -76,8 +77,9 @@ class Sweep:
     __repr__ = brief("friction_angle deg", "abscissa", "error_estimate")
 
 
+@checked
 def sweep_friction(
-    hopper: Hopper, friction_angles: ArrayLike, disturbances: Disturbances | None = None
+    hopper: Hopper, friction_angles: RealRow, disturbances: Disturbances | None = None
 ) -> Sweep:
     """Evaluate a hopper at increasing wall friction angles (radians).
 
@@ -89,7 +91,7 @@ def sweep_friction(
     InvalidParameterError
         If the angles do not increase or lie outside [0, pi/2).
     """
-    angles = np.asarray(friction_angles, dtype=float)
+    angles = np.asarray(friction_angles)
     if np.any(np.diff(angles) <= 0):
         raise InvalidParameterError("friction_angles must increase: sort and remove repeated ones")
     for angle in angles:

@@ -9,6 +9,7 @@ from math import exp
 
 import numpy as np
 
+from hopper.arguments import checked
 from hopper.brief import brief
 from hopper.errors import ConvergenceError
 from hopper.problem import Hopper
@@ -45,6 +46,7 @@ class FoldMode:
     __repr__ = brief("friction_angle deg", "modulus", "error", "before", "behind")
 
 
+@checked
 def fold_mode(hopper: Hopper) -> FoldMode | None:
     """Return what is neutral at the fold of a hopper, None if its family does not end in one.
 

@@ -10,14 +10,17 @@ from math import acos, asin, pi, sqrt
 import numpy as np
 from scipy.optimize import brentq
 
+from hopper.arguments import Fraction, Row, checked
 from hopper.arrays import Array
 from hopper.brief import brief
+from hopper.errors import InvalidParameterError
 from hopper.evidence import motion
 from hopper.radial.solution import RadialSolution
 from hopper.yield_conditions import MOHR_COULOMB, YieldCondition
 
 
-def radial_matrix(law: YieldCondition, s: float, sigma: float, psi: float) -> Array:
+@checked
+def radial_matrix(law: YieldCondition, s: Fraction, sigma: float, psi: float) -> Array:
     """Return A of the radial equations A (sigma, psi)' = F, (3.3), shape (2, 2)."""
     c2, s2 = np.cos(2 * psi), np.sin(2 * psi)
     b = 1.0 if law == MOHR_COULOMB else 1 / sqrt(3)
@@ -26,14 +29,16 @@ def radial_matrix(law: YieldCondition, s: float, sigma: float, psi: float) -> Ar
     )
 
 
-def nonsingular_below(law: YieldCondition, s: float) -> float:
+@checked
+def nonsingular_below(law: YieldCondition, s: Fraction) -> float:
     """Return the psi below which the paper says that A of (3.3) is nonsingular."""
     if law == MOHR_COULOMB:
         return pi / 4 + asin(s) / 2
     return pi / 2 - acos(s / sqrt(3)) / 2
 
 
-def first_singular_angle(law: YieldCondition, s: float) -> float:
+@checked
+def first_singular_angle(law: YieldCondition, s: Fraction) -> float:
     """Return the least psi > 0 at which the determinant of :func:`radial_matrix` vanishes."""
 
     def determinant(psi: float) -> float:
@@ -45,7 +50,8 @@ def first_singular_angle(law: YieldCondition, s: float) -> float:
     return float(brentq(determinant, grid[first], grid[first + 1], xtol=1e-15))
 
 
-def linearised(solution: RadialSolution, theta: Array) -> tuple[Array, Array, Array]:
+@checked
+def linearised(solution: RadialSolution, theta: Row) -> tuple[Array, Array, Array]:
     """Return A, B and C of (4.1) at ``theta`` (shape (n,)), each of shape (n, 2, 2)."""
     s = solution.hopper.s
     sigma, psi, dsigma, dpsi = solution.fields(theta)
@@ -90,11 +96,14 @@ class Comparison:
     __repr__ = brief("ratio", "spread")
 
 
+@checked
 def compare_linearised(solution: RadialSolution, points: int) -> Comparison:
     """Hold (4.1) as printed against the equations of motion, differentiated numerically.
 
     At ``points`` angles between the axis and the wall, excluded and included.
     """
+    if points < 1:
+        raise InvalidParameterError(f"points = {points}: give at least 1")
     theta = solution.hopper.half_angle * np.arange(1, points + 1) / points
     a, b = motion.linearised(solution, theta, curvature=0)
     _, f = motion.linearised(solution, theta, curvature=1)

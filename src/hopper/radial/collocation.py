@@ -20,6 +20,7 @@ from typing import Literal
 import numpy as np
 from scipy.linalg.lapack import dgesv
 
+from hopper.arguments import checked
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.errors import ConvergenceError
@@ -93,6 +94,7 @@ class Member:
         """D psi_w / d tau along the family; changes sign at a fold."""
         return float(self.tangent[-2] / self.tangent[-1])
 
+    @checked
     def on(self, grid: Grid) -> Array:
         """Return ``u`` interpolated to another grid, stretched where the half angles differ."""
         if grid is self.grid:
@@ -131,6 +133,7 @@ def _size(step: Array, u: Array) -> float:
     return max(float(np.abs(step[:-1]).max()), float(abs(step[-1])) / max(abs(u[-1]), 1.0))
 
 
+@checked
 def newton(
     hopper: Hopper, grid: Grid, closure: Closure, u: Array, last_step: float = 1e-7
 ) -> Member | None:
@@ -159,6 +162,7 @@ def newton(
     return None
 
 
+@checked
 def crude_start(hopper: Hopper, grid: Grid, psi_wall: float) -> Array:
     """Return linear psi, with tau and the curvature of log(sigma) that the apex then asks for."""
     k, s, law = hopper.curvature, hopper.s, hopper.material
@@ -171,6 +175,7 @@ def crude_start(hopper: Hopper, grid: Grid, psi_wall: float) -> Array:
     return np.concatenate([log_ratio, slope * grid.theta, [tau]])
 
 
+@checked
 def refine(member: Member) -> Member:
     """Solve on finer grids until the error is of rounding size.
 
@@ -205,6 +210,7 @@ def refine(member: Member) -> Member:
     )
 
 
+@checked
 def fitted(member: Member, last_step: float = 1e-7) -> Member:
     """Move a member to the grid of its size that resolves its apex layer.
 
@@ -218,6 +224,7 @@ def fitted(member: Member, last_step: float = 1e-7) -> Member:
     return newton(hopper, grid, member.closure, member.on(grid), last_step) or member
 
 
+@checked
 def solve(hopper: Hopper, closure: Closure, start: Member | None = None) -> Member | None:
     """Solve from ``start`` (default: a crude guess) on a coarse grid and refine.
 

@@ -12,6 +12,7 @@ from math import degrees, log
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from hopper.arguments import checked
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.errors import ConvergenceError
@@ -53,6 +54,7 @@ class LimitingSolution:
     __repr__ = brief("psi_wall deg", "tau", "error_estimate deg")
 
 
+@checked
 def limiting_solution(hopper: Hopper, start: Member) -> LimitingSolution | None:
     """Return the solution that ends the family; None where psi becomes singular only at the wall.
 
@@ -74,6 +76,7 @@ def limiting_solution(hopper: Hopper, start: Member) -> LimitingSolution | None:
     return LimitingSolution(psi_wall, fine.tau, error)
 
 
+@checked
 def critical_point(hopper: Hopper, start: Member, size: int) -> CriticalPoint | None:
     """Return the saddle nearest to the axis, None if there is none inside the hopper.
 
@@ -103,6 +106,8 @@ def critical_point(hopper: Hopper, start: Member, size: int) -> CriticalPoint | 
     angle = min(1.05 * before, hopper.half_angle)
     for _ in range(_SECANT_STEPS):
         excess, member = widened(angle, member)
+        if excess == at_before:
+            break
         following = angle - excess * (angle - before) / (excess - at_before)
         if abs(following - angle) < _TOLERANCE:
             theta, sigma, _ = _end(member)
@@ -129,6 +134,8 @@ def _psi_wall(hopper: Hopper, point: CriticalPoint) -> float:
     left = np.array([point.log_sigma, psi]) + _OFFSET * direction
 
     def slope(theta: float, state: Array) -> Array:
+        if not np.isfinite(state).all():  # of a step too long, which is then refused
+            return np.full(2, np.nan)
         angle, sigma = np.array([theta]), np.exp(state[:1])
         return np.concatenate(slopes(hopper, angle, sigma, state[1:]))
 

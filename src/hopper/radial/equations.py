@@ -8,9 +8,12 @@ from functools import lru_cache
 
 import numpy as np
 
+from hopper.arguments import Row, checked
 from hopper.arrays import Array
+from hopper.errors import InvalidParameterError
 from hopper.problem import Hopper
 from hopper.radial.grid import Grid
+from hopper.values import require_equal_shapes
 
 _NEAR_AXIS = 1e-7
 # Terms of the radial equations over sigma, and what is computed from them. L is log sigma.
@@ -20,6 +23,7 @@ _TERMS = (
 )  # fmt: skip
 
 
+@checked
 def normal_weight(hopper: Hopper) -> float:
     """Return the coefficient of -sin(delta) cos(2 psi) in the radial equation.
 
@@ -71,7 +75,8 @@ def _terms(psi: Array, cot: Array, dlog: Array, dpsi: Array, down: Array, out: A
     return terms
 
 
-def slopes(hopper: Hopper, theta: Array, sigma: Array, psi: Array) -> tuple[Array, Array]:
+@checked
+def slopes(hopper: Hopper, theta: Row, sigma: Row, psi: Row) -> tuple[Array, Array]:
     """Return d log(sigma)/d theta and d psi/d theta that the equations prescribe, shape (n,)."""
     determinant, dlog, dpsi = flow(hopper, theta, sigma, psi)
     dlog, dpsi = dlog / determinant, dpsi / determinant
@@ -85,11 +90,13 @@ def slopes(hopper: Hopper, theta: Array, sigma: Array, psi: Array) -> tuple[Arra
     return dlog, dpsi
 
 
-def flow(hopper: Hopper, theta: Array, sigma: Array, psi: Array) -> tuple[Array, Array, Array]:
+@checked
+def flow(hopper: Hopper, theta: Row, sigma: Row, psi: Row) -> tuple[Array, Array, Array]:
     """Return the common denominator of the slopes and the two numerators, each of shape (n,).
 
     As derivatives of (theta, log sigma, psi) they are regular where psi is singular.
     """
+    require_equal_shapes(theta=theta, sigma=sigma, psi=psi)
     cot = np.divide(1.0, np.tan(theta), out=np.zeros_like(theta), where=theta != 0)
     flat = np.zeros_like(theta)
     terms = _terms(psi, cot, flat, flat, np.cos(theta) / sigma, np.sin(theta) / sigma)
@@ -101,12 +108,16 @@ def flow(hopper: Hopper, theta: Array, sigma: Array, psi: Array) -> tuple[Array,
     )
 
 
+@checked
 def residual_and_jacobian(hopper: Hopper, grid: Grid, u: Array) -> tuple[Array, Array]:
     """Return the residuals of the equations, shape (2 m + 1,), and their derivatives by ``u``.
 
     ``u`` = (log(sigma / sigma_0), psi, tau); the last rows are left to the closure.
     """
-    m, tau = grid.size, u[-1]
+    m = grid.size
+    if u.shape != (2 * m + 1,):
+        raise InvalidParameterError(f"u has shape {u.shape}: it must be ({2 * m + 1},)")
+    tau = u[-1]
     lightness = np.exp(-u[:m])
     down, out = lightness * grid.cos, lightness * grid.sin
     terms = _terms(

@@ -12,6 +12,7 @@ from math import degrees, exp, log, radians
 import numpy as np
 from scipy.optimize import brentq
 
+from hopper.arguments import checked
 from hopper.errors import NoRadialSolutionError
 from hopper.problem import Hopper
 from hopper.radial.collocation import Closure, Member, crude_start, fitted, newton, refine
@@ -32,6 +33,7 @@ WALL_MARGIN, INTERIOR_MARGIN = 2e-3, 2e-2
 FREE_AXIS = 300.0
 
 
+@checked
 def smooth_wall_member(hopper: Hopper) -> Member:
     """Return the member with psi_w = 0, on a coarse grid; its tau is negative for small delta.
 
@@ -68,6 +70,7 @@ def smooth_wall_member(hopper: Hopper) -> Member:
     return member
 
 
+@checked
 def family(hopper: Hopper) -> Iterator[Member]:
     """Yield members in order of increasing tau, from the smooth wall to the end of the family.
 
@@ -79,6 +82,7 @@ def family(hopper: Hopper) -> Iterator[Member]:
     return family_from(smooth_wall_member(hopper))
 
 
+@checked
 def family_from(member: Member) -> Iterator[Member]:
     """Yield members along the family from the given one, towards larger tau, to its end.
 
@@ -116,12 +120,14 @@ def _ended(member: Member) -> bool:
     )
 
 
+@checked
 def past_fold(member: Member) -> bool:
     """Whether the wall friction decreases along the family at a member."""
     # Where psi_w is the parameter the sign of this slope is that of rounding near the end.
     return member.closure.unknown == "tau" and member.psi_wall_by_tau <= 0
 
 
+@checked
 def neighbour(member: Member, closure: Closure) -> Member:
     """Return the resolved member with the given closure, close to ``member``.
 
@@ -134,6 +140,7 @@ def neighbour(member: Member, closure: Closure) -> Member:
     return refine(near or Member(member.hopper, member.grid, closure, member.u, member.tangent, 1))
 
 
+@checked
 def locate_fold(below: Member, above: Member) -> Member | None:
     """Locate d psi_w / d tau = 0 between two members; None if the slope's sign was noise."""
     start = above if above.grid.clustering == below.grid.clustering else below

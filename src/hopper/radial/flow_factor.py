@@ -2,9 +2,11 @@
 
 from math import degrees, sin
 
+from hopper.arguments import checked
 from hopper.radial.solution import RadialSolution
 
 
+@checked
 def flow_factor(solution: RadialSolution) -> float:
     """Return ff = H (1 + sin delta) sigma(theta_w) / (2 sin theta_w).
 

@@ -9,6 +9,7 @@ from typing import Literal
 
 import numpy as np
 
+from hopper.arguments import checked
 from hopper.brief import brief
 from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.problem import Hopper
@@ -64,6 +65,7 @@ class FrictionLimit:
     __repr__ = brief("end", "friction_angle deg", "tau", "psi_wall deg", "error_estimate deg")
 
 
+@checked
 @lru_cache(maxsize=256)
 def friction_limit(hopper: Hopper) -> FrictionLimit:
     """Return the largest wall friction that has a radial solution.
@@ -78,6 +80,7 @@ def friction_limit(hopper: Hopper) -> FrictionLimit:
     return friction_limit_from(smooth_wall_member(hopper))
 
 
+@checked
 def friction_limit_from(member: Member) -> FrictionLimit:
     """Return the same from any member of the physical branch; the closer to the limit, the faster.
 
@@ -105,6 +108,7 @@ def friction_limit_from(member: Member) -> FrictionLimit:
     return _singular_end(last)
 
 
+@checked
 def fold_near(hopper: Hopper, start: Member) -> Member | None:
     """Return the resolved member at the fold, from a member close to it, None if that fails.
 

@@ -12,10 +12,12 @@ from math import asinh
 
 import numpy as np
 
+from hopper.arguments import Radians, checked
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.problem import Hopper
 from hopper.spectral import chebyshev
+from hopper.values import require_angle
 
 # tau theta_w from which wedges have a layer that needs clustering.
 _THIN = 30.0
@@ -61,6 +63,7 @@ class Grid:
         """Number of points m."""
         return self.theta.size
 
+    @checked
     def interpolation(self, theta: Array, parity: chebyshev.Parity) -> Array:
         """Return the matrix from half-grid values to values at ``theta``, shape (n, m)."""
         x = theta / self.half_angle
@@ -71,14 +74,16 @@ class Grid:
         )
 
 
+@checked
 @lru_cache(maxsize=256)
 def half_grid(
-    size: int, half_angle: float, clustering: float = 0.0, *, centred: bool = False
+    size: int, half_angle: Radians, clustering: float = 0.0, *, centred: bool = False
 ) -> Grid:
     """Return the grid of ``size`` points on (0, half_angle], radians, or with the axis if centred.
 
     Its arrays are read-only.
     """
+    require_angle("half_angle", half_angle)
     x = chebyshev.half_nodes(size, centred=centred)
     theta, stretch = _mapped(x, half_angle, clustering)
     weights = chebyshev.clenshaw_curtis_weights(2 * size - centred)[-size:] * stretch
@@ -126,6 +131,7 @@ def disc_weights(grid: Grid) -> Array:
     return weights
 
 
+@checked
 @lru_cache(maxsize=512)
 def transfer(old: Grid, new: Grid, parity: chebyshev.Parity) -> Array:
     """Return the matrix, shape (m_new, m_old), from one grid to another.
@@ -137,6 +143,7 @@ def transfer(old: Grid, new: Grid, parity: chebyshev.Parity) -> Array:
     return matrix
 
 
+@checked
 def layer_clustering(hopper: Hopper, tau: float) -> float:
     """Return the clustering that resolves the layer at the apex, of width 1 / tau.
 

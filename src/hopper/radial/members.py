@@ -7,6 +7,7 @@ from math import degrees
 import numpy as np
 from scipy.optimize import brentq
 
+from hopper.arguments import Radians, checked
 from hopper.errors import ConvergenceError, NoRadialSolutionError
 from hopper.problem import Hopper
 from hopper.radial.collocation import Closure, Member, newton, refine, solve
@@ -24,6 +25,7 @@ from hopper.radial.friction_limit import friction_limit
 _SAME_ANGLE = 1e-12
 
 
+@checked
 def members_with_wall_angle(
     hopper: Hopper, psi_wall: float, start: Member | None = None
 ) -> list[Member]:
@@ -85,6 +87,7 @@ def _at_wall_angle(low: Member, high: Member, psi_wall: float) -> Member:
     return neighbour(low, Closure("tau", tau))
 
 
+@checked
 def member_with_tau(hopper: Hopper, tau: float) -> Member:
     """Return the resolved member with the given tau = 1 / sigma_0.
 
@@ -109,8 +112,9 @@ def member_with_tau(hopper: Hopper, tau: float) -> Member:
     )
 
 
+@checked
 def physical_member(
-    hopper: Hopper, friction_angle: float, start: Member | None = None
+    hopper: Hopper, friction_angle: Radians, start: Member | None = None
 ) -> Member | None:
     """Return the member of the physical branch, None beyond its end; tau may be negative.
 

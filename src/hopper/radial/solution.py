@@ -6,9 +6,9 @@ from math import degrees
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
+from hopper.arguments import Positive, Radians, RealLike, checked
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.errors import (
@@ -17,7 +17,7 @@ from hopper.errors import (
     NonPositiveStressError,
     NoRadialSolutionError,
 )
-from hopper.problem import Hopper, as_angles, is_real, require_angle
+from hopper.problem import Hopper, as_angles, require_angle
 from hopper.radial.collocation import Member
 from hopper.radial.equations import normal_weight, slopes
 from hopper.radial.friction_limit import friction_limit
@@ -92,11 +92,13 @@ class RadialSolution:
         """Of log(sigma / sigma_0), psi and log sigma_0, from the convergence of the mesh."""
         return self.member.error
 
-    def psi_at(self, theta: ArrayLike) -> Array:
+    @checked
+    def psi_at(self, theta: RealLike) -> Array:
         """Return psi (radians) at ``theta`` (radians, |theta| <= theta_w), shape (n,)."""
         return self.member.grid.interpolation(self._inside(theta), "odd") @ self.psi
 
-    def fields(self, theta: ArrayLike) -> tuple[Array, Array, Array, Array]:
+    @checked
+    def fields(self, theta: RealLike) -> tuple[Array, Array, Array, Array]:
         """Return sigma, psi, d sigma/d theta and d psi/d theta at ``theta``, each of shape (n,).
 
         Slopes come from the differential equations, so they carry no differentiation error.
@@ -116,8 +118,11 @@ class RadialSolution:
         psi = self.member.grid.interpolation(theta, "odd") @ self.psi
         return self._with_slopes(theta, log_ratio, psi)
 
+    @checked
     def fields_on(self, grids: Sequence[Grid]) -> tuple[Array, Array, Array, Array]:
         """Return :meth:`fields` at the points of half grids, one after the other, shape (n,)."""
+        if not grids:
+            raise InvalidParameterError("grids is empty: give at least one grid")
         on = [(grid.size, self.member.on(grid)) for grid in grids]
         theta = np.concatenate([grid.theta for grid in grids])
         log_ratio = np.concatenate([u[:m] for m, u in on])
@@ -145,14 +150,15 @@ class RadialSolution:
             return float(angle), float(self.psi_at(angle)[0])
         return float(theta[peak]), float(self.psi_at(theta[peak])[0])
 
+    @checked
     def first_angle_with(self, psi: float) -> float | None:
         """Return the least theta (radians) at which psi has the given value, None if nowhere."""
         theta, largest = self.psi_maximum()
-        if largest < psi:
+        if not 0 <= psi <= largest:
             return None
         return float(brentq(lambda angle: float(self.psi_at(angle)[0]) - psi, 0.0, theta))
 
-    def _inside(self, theta: ArrayLike) -> Array:
+    def _inside(self, theta: RealLike) -> Array:
         theta = as_angles("theta", theta)
         if not np.all(np.abs(theta) <= self.hopper.half_angle * (1 + 1e-12)):
             raise InvalidParameterError(
@@ -162,9 +168,10 @@ class RadialSolution:
         return theta
 
 
+@checked
 def solve_radial(
     hopper: Hopper,
-    friction_angle: float,
+    friction_angle: Radians,
     branch: Branch = "physical",
     start: RadialSolution | None = None,
 ) -> RadialSolution:
@@ -205,7 +212,8 @@ def solve_radial(
     return RadialSolution(hopper, friction_angle, branch, member)
 
 
-def radial_solutions(hopper: Hopper, friction_angle: float) -> list[RadialSolution]:
+@checked
+def radial_solutions(hopper: Hopper, friction_angle: Radians) -> list[RadialSolution]:
     """Return every radial stress field for the given wall friction (radians): one, or two.
 
     The physical one first.
@@ -222,7 +230,8 @@ def radial_solutions(hopper: Hopper, friction_angle: float) -> list[RadialSoluti
         return [physical]
 
 
-def solve_radial_family(hopper: Hopper, sigma_axis: float) -> RadialSolution:
+@checked
+def solve_radial_family(hopper: Hopper, sigma_axis: Positive) -> RadialSolution:
     """Return the member of the family with average stress ``sigma_axis`` on the axis.
 
     Parameters
@@ -241,11 +250,10 @@ def solve_radial_family(hopper: Hopper, sigma_axis: float) -> RadialSolution:
     ConvergenceError
         If the fields cannot be resolved.
     """
-    if not (is_real(sigma_axis) and 0 < sigma_axis < np.inf):
-        raise InvalidParameterError(f"sigma_axis = {sigma_axis!r} must be a positive number")
     return solution_of(member_with_tau(hopper, 1 / sigma_axis))
 
 
+@checked
 def solution_of(member: Member) -> RadialSolution:
     """Return the radial solution of a member of the family, with the friction of its wall."""
     phi = member.hopper.material.friction_angle(member.hopper.delta, member.psi_wall)

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from math import degrees, pi, sqrt
 
 import numpy as np
-from numpy.typing import ArrayLike
 
+from hopper.arguments import RealLike, checked
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.errors import ConvergenceError, InvalidParameterError, SingularVelocityError
@@ -31,7 +31,8 @@ class VelocityField:
 
     __repr__ = brief("half_angle deg", "wall", "error_estimate")
 
-    def at(self, theta: ArrayLike) -> Array:
+    @checked
+    def at(self, theta: RealLike) -> Array:
         """Return u at ``theta`` (radians, |theta| <= theta_w), shape (n,).
 
         Raises
@@ -53,12 +54,14 @@ class VelocityField:
         return float(np.exp(self.log_u[-1]))
 
 
+@checked
 def decay_exponent(solution: RadialSolution) -> float:
     """Return c in u' = -c u tan 2psi: 3 (cone), 2 (wedge), sqrt(12) (von Mises)."""
     hopper = solution.hopper
     return sqrt(12) if hopper.material == VON_MISES else 2.0 + hopper.curvature
 
 
+@checked
 def solve_velocity(solution: RadialSolution) -> VelocityField:
     """Integrate the velocity equation over a radial stress field.
 

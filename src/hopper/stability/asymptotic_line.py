@@ -14,6 +14,7 @@ from math import cos, pi
 
 import numpy as np
 
+from hopper.arguments import checked
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.errors import ConvergenceError
@@ -44,6 +45,7 @@ class AsymptoticLine:
     __repr__ = brief("abscissa", "spacing", "error_estimate")
 
 
+@checked
 def asymptotic_line(
     solution: RadialSolution, first: tuple[Grid, TiltedCoefficients] | None = None
 ) -> AsymptoticLine:

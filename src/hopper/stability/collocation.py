@@ -10,6 +10,7 @@ from typing import Literal
 
 import numpy as np
 
+from hopper.arguments import checked
 from hopper.arrays import Array
 from hopper.errors import InvalidParameterError
 from hopper.problem import Geometry
@@ -21,11 +22,13 @@ Parity = Literal["symmetric", "asymmetric"]
 PARITIES: tuple[Parity, Parity] = ("symmetric", "asymmetric")
 
 
+@checked
 def parities_of(geometry: Geometry) -> tuple[Parity, ...]:
     """Return the parities that are disturbances: both of a wedge, the flow's of a cone."""
     return PARITIES if geometry == "wedge" else PARITIES[:1]
 
 
+@checked
 def mode_grid(solution: RadialSolution, m: int, parity: Parity) -> Grid:
     """Return the half grid of ``m`` points on which modes of a solution are collocated.
 
@@ -38,6 +41,7 @@ def mode_grid(solution: RadialSolution, m: int, parity: Parity) -> Grid:
     return half_grid(m, hopper.half_angle, clustering, centred=parity == "asymmetric")
 
 
+@checked
 def tilted_matrix(solution: RadialSolution, m: int, parity: Parity = "symmetric") -> Array:
     """Return M' on ``m`` half-grid points, shape (2 m - 1, 2 m - 1), or (2 m - 2, 2 m - 2).
 
@@ -59,6 +63,7 @@ def tilted_matrix(solution: RadialSolution, m: int, parity: Parity = "symmetric"
     return assemble(grid, at)
 
 
+@checked
 def require_disturbance(geometry: Geometry, parity: str) -> None:
     """Check that disturbances of a parity are smooth at the apex.
 
@@ -75,6 +80,7 @@ def require_disturbance(geometry: Geometry, parity: str) -> None:
         )
 
 
+@checked
 def assemble(grid: Grid, at: TiltedCoefficients) -> Array:
     """Return the matrix from the coefficients on its grid: asymmetric if the grid is centred."""
     m, node = grid.size, np.arange(grid.size)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eig
 
+from hopper.arguments import checked
 from hopper.arrays import Array, Complex
 from hopper.brief import brief
 from hopper.errors import InvalidParameterError
@@ -45,6 +46,7 @@ class MeshSpectrum:
     __repr__ = brief("n", "eigenvalues", "tail")
 
 
+@checked
 def mesh_spectrum(solution: RadialSolution, n: int) -> MeshSpectrum:
     """Return the spectrum of M on ``n`` nodes of the full interval.
 

@@ -14,6 +14,7 @@ from typing import Literal
 
 import numpy as np
 
+from hopper.arguments import ComplexRow, checked
 from hopper.arrays import Array, Complex
 from hopper.brief import brief
 from hopper.errors import ConvergenceError, InvalidParameterError
@@ -128,6 +129,7 @@ class LinearStability:
         return "stable_symmetric_only" if value < -error else "unstable"
 
 
+@checked
 def linear_stability(
     solution: RadialSolution,
     disturbances: Disturbances | None = None,
@@ -171,6 +173,7 @@ def linear_stability(
     return _judged(modes, line)
 
 
+@checked
 def parities_among(disturbances: str | None, geometry: Geometry) -> tuple[Parity, ...]:
     """Return the parities to look at: by default any of wedges, the symmetric one of cones.
 
@@ -245,11 +248,14 @@ def _low_modes(
     return best
 
 
-def partner_changes(fine: Complex, coarse: Complex) -> Array:
+@checked
+def partner_changes(fine: ComplexRow, coarse: ComplexRow) -> Array:
     """Return the distance of each mode to its partner, inf where another one has it.
 
     Relative to the modulus where that is above 1.
     """
+    if not coarse.size:
+        return np.full(fine.size, np.inf)
     distance = np.abs(fine[:, None] - coarse)
     partner = distance.argmin(axis=1)
     change = distance[np.arange(fine.size), partner] / np.maximum(np.abs(fine), 1)
@@ -260,6 +266,7 @@ def partner_changes(fine: Complex, coarse: Complex) -> Array:
     return change
 
 
+@checked
 def upper_eigenvalues(solution: RadialSolution, size: int, parity: Parity = "symmetric") -> Complex:
     """Return the eigenvalues with Im >= 0 on ``size`` half-grid points, by increasing modulus."""
     return _upper(tilted_matrix(solution, size, parity))

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hopper.arguments import checked
 from hopper.arrays import Complex
 from hopper.errors import ConvergenceError
 from hopper.radial.solution import RadialSolution
@@ -32,6 +33,7 @@ class PaperAbscissa:
     physical: float
 
 
+@checked
 def paper_abscissa(
     solution: RadialSolution, n: int, coarse_n: int, tolerance: float
 ) -> PaperAbscissa:

@@ -12,8 +12,8 @@ depend on it, norms do.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
 
+from hopper.arguments import Positive, RealLike, checked
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.errors import InvalidParameterError
@@ -45,8 +45,9 @@ class Coefficients:
     __repr__ = brief("sigma", "psi deg", "q")
 
 
+@checked
 def coefficients(
-    solution: RadialSolution, theta: ArrayLike, psi_scale: float = 1.0
+    solution: RadialSolution, theta: RealLike, psi_scale: Positive = 1.0
 ) -> Coefficients:
     """Return the coefficients of (4.1) at angles ``theta``.
 
@@ -65,26 +66,21 @@ def coefficients(
         If the material is not Mohr-Coulomb (its velocity does not decouple), psi_scale is not
         positive, or an angle lies on the axis or outside the hopper.
     """
-    _require_linear(solution, psi_scale)
+    require_linear(solution)
     theta = np.asarray(theta, dtype=float)
     if np.any(theta == 0):
         raise InvalidParameterError("theta = 0 is the axis, where C is singular: use other angles")
     return _coefficients(solution, theta, solution.fields(theta), psi_scale)
 
 
+@checked
 def coefficients_on_half_grid(
-    solution: RadialSolution, m: int, psi_scale: float = 1.0
+    solution: RadialSolution, m: int, psi_scale: Positive = 1.0
 ) -> Coefficients:
     """Return the coefficients at the ``m`` positive Chebyshev points, as :func:`coefficients`."""
-    _require_linear(solution, psi_scale)
+    require_linear(solution)
     grid = half_grid(m, solution.hopper.half_angle)
     return _coefficients(solution, grid.theta, solution.fields_on([grid]), psi_scale)
-
-
-def _require_linear(solution: RadialSolution, psi_scale: float) -> None:
-    require_linear(solution)
-    if not (np.isfinite(psi_scale) and psi_scale > 0):
-        raise InvalidParameterError(f"psi_scale = {psi_scale!r} must be a positive number")
 
 
 def _coefficients(

@@ -16,6 +16,7 @@ from typing import Literal
 
 import numpy as np
 
+from hopper.arguments import Positive, checked
 from hopper.arrays import Array
 from hopper.errors import InvalidParameterError
 from hopper.radial.solution import RadialSolution
@@ -25,7 +26,8 @@ from hopper.stability.paper_frame import Coefficients, coefficients, coefficient
 Half = Literal["physical", "mirrored"]
 
 
-def paper_matrix(solution: RadialSolution, n: int, psi_scale: float = 1.0) -> Array:
+@checked
+def paper_matrix(solution: RadialSolution, n: int, psi_scale: Positive = 1.0) -> Array:
     """Return M of ``n`` nodes in paper mode, shape (2 n - 2, 2 n - 2).
 
     Unknowns: sigma1 at theta_1 < ... < theta_n, then psi1 / psi_scale at theta_2 ... theta_(n-1).
@@ -44,8 +46,9 @@ def paper_matrix(solution: RadialSolution, n: int, psi_scale: float = 1.0) -> Ar
     return matrix[np.ix_(inner, inner)]
 
 
+@checked
 def half_matrix(
-    solution: RadialSolution, m: int, half: Half = "physical", psi_scale: float = 1.0
+    solution: RadialSolution, m: int, half: Half = "physical", psi_scale: Positive = 1.0
 ) -> Array:
     """Return M on a half grid of ``m`` nodes, shape (2 m - 1, 2 m - 1).
 
@@ -67,6 +70,7 @@ def half_matrix(
     return _assemble(at, d_sigma, d_psi)[:-1, :-1]
 
 
+@checked
 def require_even(n: int) -> None:
     """Check a number of nodes on the full interval.
 

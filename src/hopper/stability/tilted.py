@@ -24,8 +24,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike
 
+from hopper.arguments import RealLike, checked
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.errors import InvalidParameterError
@@ -56,6 +56,7 @@ class TiltedCoefficients:
     __repr__ = brief("sigma", "psi deg", "w")
 
 
+@checked
 def require_linear(solution: RadialSolution) -> None:
     """Check that the stress equations stand by themselves.
 
@@ -70,7 +71,8 @@ def require_linear(solution: RadialSolution) -> None:
         )
 
 
-def tilted_coefficients(solution: RadialSolution, theta: ArrayLike) -> TiltedCoefficients:
+@checked
+def tilted_coefficients(solution: RadialSolution, theta: RealLike) -> TiltedCoefficients:
     """Return the coefficients at angles ``theta`` (radians, |theta| <= theta_w), shape (n,).
 
     Raises
@@ -89,14 +91,16 @@ def tilted_coefficients(solution: RadialSolution, theta: ArrayLike) -> TiltedCoe
     return _coefficients(solution, cot, fields)
 
 
+@checked
 def on_grids(solution: RadialSolution, grids: Sequence[Grid]) -> list[TiltedCoefficients]:
     """Return the coefficients at the points of several half grids, evaluated together.
 
     At these sizes numpy's overhead is most of the cost.
     """
     require_linear(solution)
+    fields = solution.fields_on(grids)
     cot = np.concatenate([grid.cot for grid in grids])
-    at = vars(_coefficients(solution, cot, solution.fields_on(grids)))
+    at = vars(_coefficients(solution, cot, fields))
     stops = np.cumsum([grid.size for grid in grids])
     parts = [slice(stop - grid.size, stop) for stop, grid in zip(stops, grids, strict=True)]
     return [TiltedCoefficients(**{name: at[name][part] for name in at}) for part in parts]
@@ -126,7 +130,8 @@ def _coefficients(
     )
 
 
-def wave_matrices(solution: RadialSolution, theta: ArrayLike) -> tuple[Array, Array]:
+@checked
+def wave_matrices(solution: RadialSolution, theta: RealLike) -> tuple[Array, Array]:
     """Return N and K of u_theta + N u_t + K u = 0, each of shape (n, 2, 2).
 
     ``theta`` (n,) in radians, 0 < |theta| <= theta_w. A and F = B + (d - 2) C of (4.1) are N^-1 and
@@ -146,6 +151,7 @@ def wave_matrices(solution: RadialSolution, theta: ArrayLike) -> tuple[Array, Ar
     return np.moveaxis(n, 2, 0), np.einsum("ijn,jkn->nik", inverse, f)
 
 
+@checked
 def tilt(solution: RadialSolution, size: int = 64) -> tuple[Array, Array]:
     """Return theta and h(theta), radians and 1, at ``size`` points of a half grid, shape (size,).
 
@@ -159,6 +165,7 @@ def tilt(solution: RadialSolution, size: int = 64) -> tuple[Array, Array]:
     return grid.theta, chebyshev.integrate_odd(slope)
 
 
+@checked
 @lru_cache(maxsize=8)
 def first_tangency(solution: RadialSolution) -> float | None:
     """Return the angle (radians) at which psi first reaches pi/4 - delta/2, None if it does not.
@@ -168,6 +175,7 @@ def first_tangency(solution: RadialSolution) -> float | None:
     return solution.first_angle_with(tangency_angle(solution.hopper.delta))
 
 
+@checked
 def tangency_angle(delta: float) -> float:
     """Return the psi (radians) at which a characteristic is tangent to the arcs r = const."""
     return np.pi / 4 - delta / 2

@@ -15,8 +15,8 @@ its own, with unknowns (sigma1, psi1 / psi_scale); numbers for one hopper are in
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
 
+from hopper.arguments import Positive, checked
 from hopper.arrays import Array, Complex
 from hopper.errors import InvalidParameterError
 from hopper.problem import Hopper
@@ -30,6 +30,7 @@ Norm = Literal["discrete", "L2"]
 NORMS: tuple[Norm, ...] = ("discrete", "L2")
 
 
+@checked
 def half_weights(hopper: Hopper, m: int, norm: Norm) -> Array:
     """Return the weights, shape (2 m - 1,), of a norm of (sigma1, psi1) on a half grid of m nodes.
 
@@ -42,11 +43,8 @@ def half_weights(hopper: Hopper, m: int, norm: Norm) -> Array:
     InvalidParameterError
         If the norm is unknown.
     """
-    if norm == "discrete":
-        return np.full(2 * m - 1, 2.0)
-    if norm == "L2":
-        return _l2_weights(hopper, half_grid(m, hopper.half_angle))
-    raise InvalidParameterError(f"norm = {norm!r} is unknown: use one of {', '.join(NORMS)}")
+    grid = half_grid(m, hopper.half_angle)
+    return np.full(2 * m - 1, 2.0) if norm == "discrete" else _l2_weights(hopper, grid)
 
 
 def _l2_weights(hopper: Hopper, grid: Grid) -> Array:
@@ -57,7 +55,8 @@ def _l2_weights(hopper: Hopper, grid: Grid) -> Array:
     return np.concatenate([weights[first:], weights[:-1]])
 
 
-def tilted_basis(solution: RadialSolution, m: int, parity: Parity, kept: ArrayLike) -> ModalBasis:
+@checked
+def tilted_basis(solution: RadialSolution, m: int, parity: Parity, kept: Complex) -> ModalBasis:
     """Return the basis of kept modes of one parity in tilted time, in the norm L2.
 
     Parameters
@@ -81,13 +80,14 @@ def tilted_basis(solution: RadialSolution, m: int, parity: Parity, kept: ArrayLi
     return basis_of(tilted_matrix(solution, m, parity), weights, _some(kept, parity))
 
 
+@checked
 def modal_basis(
     solution: RadialSolution,
     n: int,
     half: Half,
-    kept: ArrayLike,
+    kept: Complex,
     norm: Norm = "L2",
-    psi_scale: float = 1.0,
+    psi_scale: Positive = 1.0,
 ) -> ModalBasis:
     """Return the basis of the kept modes of one parity in the paper's frame, on ``n`` nodes.
 
@@ -115,10 +115,9 @@ def modal_basis(
     return basis_of(matrix, half_weights(solution.hopper, n // 2, norm), _some(kept, half))
 
 
-def _some(kept: ArrayLike, parity: str) -> Complex:
-    wanted = np.asarray(kept, dtype=complex)
-    if wanted.size == 0:
+def _some(kept: Complex, parity: str) -> Complex:
+    if kept.size == 0:
         raise InvalidParameterError(
             f"no {parity} eigenvalue is kept: widen the filter's tolerance or use finer meshes"
         )
-    return wanted
+    return kept
