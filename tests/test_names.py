@@ -145,8 +145,10 @@ def results():
     from hopper.evidence.folds import fold_mode
     from hopper.evidence.motion import check_field, levy_factor
     from hopper.evidence.printed import compare_linearised
+    from hopper.evidence.sign_changes import sign_changes
     from hopper.evidence.smooth_operator import check_formula
     from hopper.radial.critical_point import CriticalPoint, LimitingSolution
+    from hopper.radial.pieces import first_piece
     from hopper.spectral.sensitivity import kept_sensitivity
     from hopper.stability.convergence_filter import convergence_filter
     from hopper.stability.mesh_spectrum import mesh_spectrum
@@ -168,6 +170,7 @@ def results():
     kept = stability.eigenvalues[stability.eigenvalues.imag > 0][:1]
     basis = modal_basis(solution, 64, "physical", np.concatenate([kept, kept.conj()]))
     form = hopper.schur_form(np.diag([-1.0, -2.0]))
+    piece = first_piece(cone)
     soft = hopper.Hopper("cone", radians(35), radians(10), hopper.yield_condition("von-mises"))
     von_mises = hopper.solve_radial(soft, 0.1)
     found = [
@@ -189,6 +192,8 @@ def results():
         compare_linearised(solution, 3), check_formula(cone, 3, 12),
         Case("cone", "mohr-coulomb", 35, 10, Wall.of(0.1)), Wall.of(0.1),
         number("sigma_axis", "stress"), *rows(solution, [number("sigma_axis", "stress")]),
+        piece, piece.end, solution.member.grid.map, form.panels[0],
+        *sign_changes(np.cos, [1.0, 2.0], 0.1),
     ]  # fmt: skip
     assert all(found)
     return {type(item).__name__: item for item in found}

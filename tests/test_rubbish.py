@@ -28,7 +28,9 @@ from hopper.spectral.transient import ModalBasis, basis_of
 from hopper.values import complex_array, number_array
 
 # Modules of tools for writing functions, not for users.
-TOOLS = {"hopper.arguments", "hopper.brief", "hopper.errors", "hopper.values"}
+TOOLS = {
+    "hopper.arguments", "hopper.brief", "hopper.errors", "hopper.radial.steps", "hopper.values"
+}  # fmt: skip
 
 
 class Unwilling:

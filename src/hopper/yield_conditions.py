@@ -6,18 +6,24 @@ models, (3.1) and (3.2), read
     T_rr = sigma (1 - radial s cos 2psi)        T_rt = -sigma s sin 2psi
     T_tt = sigma (1 + angular s cos 2psi)       T_pp = sigma (1 + hoop s + hoop_cosine s cos 2psi)
 
-and differ only in the four numbers of :class:`YieldCondition`.
+and differ only in the four numbers of :class:`YieldCondition`. Nothing elsewhere may assume more of
+a yield condition than these formulas say: principal stresses in particular come from here.
 """
 
 from dataclasses import dataclass
 from math import asin, atan, cos, degrees, pi, sin, sqrt, tan
+from sys import float_info
 
-from hopper.arguments import Radians, checked
+import numpy as np
+
+from hopper.arguments import Radians, Row, checked
+from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.errors import InvalidParameterError, WallFrictionError
-from hopper.values import require_angle, shown
+from hopper.values import require_angle, require_equal_shapes, shown
 
 _ROUNDING = 1e-14
+_EPS = float_info.epsilon
 
 
 @dataclass(frozen=True)
@@ -76,6 +82,18 @@ class YieldCondition:
         return atan(s * sin(2 * psi) / (1 + self.angular * s * cos(2 * psi)))
 
     @checked
+    def wall_angle_rounding(self, delta: float, psi: float) -> float:
+        """Return the rounding error of psi_w as :meth:`wall_angle` computes it, radians.
+
+        Towards the largest friction d phi / d psi vanishes and the error of psi grows.
+        """
+        phi = abs(self.friction_angle(delta, psi))
+        s, c2, s2 = sin(delta), cos(2 * psi), sin(2 * psi)
+        pressure = 1 + self.angular * s * c2
+        slope = 2 * s * abs(c2 + self.angular * s) / (pressure**2 + (s * s2) ** 2)
+        return 4 * _EPS * (abs(psi) + phi / max(slope, sqrt(_EPS)))
+
+    @checked
     def largest_friction_angle(self, delta: Radians) -> float:
         """Return the largest phi (radians) for which :meth:`wall_angle` exists.
 
@@ -100,6 +118,18 @@ class YieldCondition:
         """
         require_angle("delta", delta)
         return asin(self.angular * sin(delta)) / 2 + asin(1) / 2
+
+    @checked
+    def principal_stresses(self, delta: Radians, sigma: Row, psi: Row) -> tuple[Array, Array]:
+        """Return the major and the minor principal stress in the plane of r and theta, shape (n,).
+
+        In units of sigma. The stress T_pp across that plane lies between them.
+        """
+        require_equal_shapes(sigma=sigma, psi=psi)
+        s, cosine, sine = sin(delta), np.cos(2 * psi), np.sin(2 * psi)
+        mean = 1 + (self.angular - self.radial) / 2 * s * cosine
+        radius = s * np.hypot((self.angular + self.radial) / 2 * cosine, sine)
+        return sigma * (mean + radius), sigma * (mean - radius)
 
 
 MOHR_COULOMB = YieldCondition("Mohr-Coulomb", radial=1, angular=1, hoop=1, hoop_cosine=0)

@@ -25,7 +25,12 @@ from hopper.assessment.limits import assess_limits, tangency_coefficient
 from hopper.assessment.neutral import assess_neutral
 from hopper.assessment.radial import assess_radial, describe_radial
 from hopper.assessment.stability import assess_stability
-from hopper.errors import InvalidParameterError, NoRadialSolutionError, WallFrictionError
+from hopper.errors import (
+    ConvergenceError,
+    InvalidParameterError,
+    NoRadialSolutionError,
+    WallFrictionError,
+)
 from hopper.quantity import Quantity
 from hopper.radial.collocation import Closure, newton
 from hopper.radial.grid import half_grid
@@ -101,8 +106,12 @@ def test_a_narrow_hopper_has_limits():
         assert abs(limits.coefficient.value - tan(limits.mass_flow.value)) < 1e-14
 
 
-def test_limits_that_are_not_resolved_are_noted():
-    found = radial_numbers(make("wedge", 88, 38), 0.1)
+def test_limits_that_are_not_resolved_are_noted(monkeypatch):
+    def unresolved(_):
+        raise ConvergenceError("end of the family not resolved")
+
+    monkeypatch.setattr("hopper.assessment.limits.friction_limit", unresolved)
+    found = radial_numbers(make("wedge", 40, 20), 0.1)
     assert found.limits.friction is None
     assert found.limits.coefficient is None
     assert found.notes == ("the largest friction with a radial solution is not resolved",)

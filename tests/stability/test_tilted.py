@@ -197,7 +197,7 @@ def test_sizes_and_grids(case, clustered):
     solution = of_case(case)
     assert tilted_matrix(solution, 12).shape == (23, 23)
     grid = mode_grid(solution, 12, "symmetric")
-    assert (grid.clustering > 0) == clustered
+    assert (grid.map.clustering > 0) == clustered
     assert not grid.centred
     if not clustered:
         assert tilted_matrix(solution, 12, "asymmetric").shape == (22, 22)

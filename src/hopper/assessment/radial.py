@@ -7,14 +7,13 @@ import numpy as np
 from hopper.arguments import Radians, checked
 from hopper.arrays import Array
 from hopper.assessment.limits import Limits, assess_limits
-from hopper.assessment.propagation import SHIFT, wall_angle_rounding, with_errors
+from hopper.assessment.propagation import wall_angle_rounding, with_errors
 from hopper.brief import brief
 from hopper.errors import ConvergenceError, NoRadialSolutionError, SingularVelocityError
 from hopper.problem import Hopper
 from hopper.quantity import Quantity
-from hopper.radial.collocation import Member
 from hopper.radial.flow_factor import flow_factor
-from hopper.radial.members import members_with_wall_angle
+from hopper.radial.members import number_of_solutions
 from hopper.radial.solution import RadialSolution, solve_radial
 from hopper.radial.velocity import VelocityField, solve_velocity
 
@@ -96,7 +95,7 @@ def describe_radial(solution: RadialSolution) -> RadialAssessment:
     if limits.friction is None:
         notes.append("the largest friction with a radial solution is not resolved")
     try:
-        solutions = 1 + len(_further_members(solution))
+        solutions = number_of_solutions(hopper, solution.friction_angle)
     except (ConvergenceError, NoRadialSolutionError):
         notes.append("the number of radial solutions is unknown: the family is not resolved")
     return RadialAssessment(
@@ -113,13 +112,6 @@ def describe_radial(solution: RadialSolution) -> RadialAssessment:
         limits=limits,
         notes=tuple(notes),
     )
-
-
-def _further_members(solution: RadialSolution) -> list[Member]:
-    """Return the members of the family with the same wall and less stress on the axis."""
-    member = solution.member
-    found = members_with_wall_angle(solution.hopper, member.psi_wall, start=member)
-    return [other for other in found if other.tau > (1 + SHIFT) * member.tau]
 
 
 def _numbers(solution: RadialSolution) -> Array:

@@ -24,7 +24,7 @@ from hopper.radial.collocation import Closure, Member
 from hopper.radial.family import family, neighbour
 from hopper.radial.friction_limit import friction_limit
 from hopper.radial.solution import solution_of
-from hopper.stability.tilted import tangency_angle
+from hopper.stability.tilted import require_mohr_coulomb, tangency_angle
 
 
 @checked
@@ -82,7 +82,13 @@ def tangency_friction(hopper: Hopper) -> float | None:
 
     At the wall this is mu = sin(delta) cos(delta) / (1 + sin(delta)**2). None as
     :func:`friction_reaching`.
+
+    Raises
+    ------
+    InvalidParameterError
+        If the material is not Mohr-Coulomb.
     """
+    require_mohr_coulomb(hopper)
     return friction_reaching(hopper, tangency_angle(hopper.delta))
 
 

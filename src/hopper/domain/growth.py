@@ -13,9 +13,10 @@ import numpy as np
 from hopper.arguments import checked
 from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.problem import Geometry, Hopper, as_geometry, require_angle
-from hopper.radial.collocation import Closure, Member, solve
+from hopper.radial.collocation import Closure, Member
 from hopper.radial.friction_limit import fold_near
 from hopper.radial.members import physical_member
+from hopper.radial.refinement import solve
 from hopper.radial.solution import solution_of
 from hopper.stability.asymptotic_line import asymptotic_line
 from hopper.stability.modes import (

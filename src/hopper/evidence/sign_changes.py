@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from hopper.arguments import checked
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.errors import InvalidParameterError
@@ -39,6 +40,7 @@ class Change:
     __repr__ = brief("place", "before", "after", "jump")
 
 
+@checked
 def sign_changes(
     function: Callable[[float], float], places: ArrayLike, width: float
 ) -> list[Change]:

@@ -18,6 +18,7 @@ from hopper.errors import InvalidParameterError
 from hopper.problem import Geometry, Hopper, require_angle
 from hopper.spectral import chebyshev
 from hopper.stability import smooth_wall
+from hopper.stability.tilted import require_mohr_coulomb
 
 # Kummer series of more take long, and lose all digits.
 _LARGEST_MU = 1e4
@@ -31,6 +32,7 @@ def operator_matrix(hopper: Hopper, m: int) -> Array:
 
     Unknowns: sigma1, even, at all nodes and omega1, odd, at all but the wall; lambda U = M U.
     """
+    require_mohr_coulomb(hopper)
     s, k = hopper.s, hopper.curvature
     theta = hopper.half_angle * chebyshev.half_nodes(m)
     even, odd = (

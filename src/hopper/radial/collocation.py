@@ -6,35 +6,28 @@ the stress at the axis. The equations, divided by sigma, are regular in tau thro
 sigma_0 passes through infinity; the apex is an ordinary point between two nodes.
 
 All radial solutions of a hopper form a curve with one member for each tau.
-
-References
-----------
-.. [TT] T. W. Tee, L. N. Trefethen, A rational spectral collocation method with adaptively
-   transformed Chebyshev grid points, SIAM J. Sci. Comput. 28 (2006).
 """
 
 from dataclasses import dataclass, replace
-from math import isfinite
+from math import inf, isfinite
 from typing import Literal
 
 import numpy as np
-from scipy.linalg.lapack import dgesv
 
 from hopper.arguments import checked
 from hopper.arrays import Array
 from hopper.brief import brief
-from hopper.errors import ConvergenceError
 from hopper.problem import Hopper
-from hopper.radial.equations import normal_weight, residual_and_jacobian
-from hopper.radial.grid import Grid, half_grid, layer_clustering, transfer
+from hopper.radial.equations import normal_weight, residual_and_jacobian, slopes
+from hopper.radial.grid import Grid, transfer
+from hopper.radial.steps import size_of, solved_by
+from hopper.spectral import chebyshev
 
-# Half-grid sizes; a solution on one is confirmed on the next.
-_SIZES = (12, 16, 24, 36, 54, 80, 120, 180)
 _NEWTON_STEPS = 25
-_TOLERANCE = 1e-12
-_ACCEPTABLE = 1e-6
-# Factor on the error that geometric convergence predicts; near the singular angle it is slower.
-_SAFETY = 20
+# Radians below the singular angle from which on the distance to a square root at the wall counts.
+FAR = 0.3
+# That distance over theta_w from which on psi_w grows up to the singular angle.
+_ROUGHEST = 1e-4
 
 
 @dataclass(frozen=True)
@@ -49,8 +42,8 @@ class Closure:
 class Member:
     """A solution on a grid: ``u`` = (log(sigma / sigma_0), psi, tau), ``tangent`` along the family.
 
-    ``error`` is an estimate of the error of u: absolute in log(sigma / sigma_0) and psi, relative
-    in tau where tau > 1.
+    ``error`` bounds that of u: absolute in log(sigma / sigma_0) and psi, relative in tau where
+    tau > 1. Of a member that is not resolved it is the first Newton step.
     """
 
     hopper: Hopper
@@ -94,6 +87,58 @@ class Member:
         """D psi_w / d tau along the family; changes sign at a fold."""
         return float(self.tangent[-2] / self.tangent[-1])
 
+    @property
+    def slope(self) -> float:
+        """D psi_w / d log(tau) along the family."""
+        return self.psi_wall_by_tau * self.tau
+
+    @property
+    def rising(self) -> bool:
+        """Whether psi_w grows with tau; so it does up to where a wall is as rough as its material.
+
+        There the derivative of tau by psi_w vanishes, and its sign is rounding.
+        """
+        return self.psi_wall_by_tau > 0 or self.excess < _ROUGHEST
+
+    @property
+    def steepness(self) -> float:
+        """Change of u, measured as in ``error``, per change of the closure: psi_w, or log(tau)."""
+        scale = 1.0 if self.closure.unknown == "psi_wall" else max(abs(self.tau), 1.0)
+        return max(1.0, scale * size_of(self.tangent, self.u))
+
+    @property
+    def tail(self) -> float:
+        """Largest of the last Chebyshev coefficients."""
+        return tail(self.log_ratio, self.psi)
+
+    @property
+    def gap(self) -> Array:
+        """Radians by which psi stays below its singular angle at the nodes."""
+        return self.hopper.material.singular_angle(self.hopper.delta) - self.psi
+
+    @property
+    def excess(self) -> float:
+        """Distance from the wall to where psi becomes singular, over theta_w; inf where it is far.
+
+        psi ends there in a square root, as extrapolated from its slope at the wall.
+        """
+        gap = self.gap[-1]
+        if not 0 < gap < FAR:
+            return inf
+        theta = self.grid.theta[-1:]
+        sigma = np.exp(self.log_ratio[-1:]) / self.tau
+        steep = slopes(self.hopper, theta, sigma, self.psi[-1:])[1][0] * theta[0]
+        return float(gap / (2 * steep)) if steep > 0 else inf
+
+    @property
+    def kink(self) -> tuple[float, float]:
+        """Place and width, over theta_w, of the bend of psi below its singular angle."""
+        gap = self.gap
+        nearest = int(np.argmin(gap))
+        steepest = np.abs(self.grid.d_odd @ self.psi)[nearest // 2 :].max()
+        theta = self.grid.theta
+        return theta[nearest] / theta[-1], gap[nearest] / steepest / theta[-1]
+
     @checked
     def on(self, grid: Grid) -> Array:
         """Return ``u`` interpolated to another grid, stretched where the half angles differ."""
@@ -103,8 +148,17 @@ class Member:
         return np.concatenate([even @ self.log_ratio, odd @ self.psi, self.u[-1:]])
 
 
-def _newton_step(hopper: Hopper, grid: Grid, closure: Closure, u: Array) -> tuple[Array, Array]:
-    """Return the Newton correction, and the derivative of u by the closure's value."""
+@checked
+def tail(log_ratio: Array, psi: Array) -> float:
+    """Return the largest of the last Chebyshev coefficients: what their grid does not resolve."""
+    even = chebyshev.half_coefficients(log_ratio, "even")[-2:]
+    odd = chebyshev.half_coefficients(psi, "odd")[-2:]
+    return float(max(np.abs(even).max(), np.abs(odd).max()))
+
+
+@checked
+def closed_system(hopper: Hopper, grid: Grid, closure: Closure, u: Array) -> tuple[Array, Array]:
+    """Return the residual of the equations with the closure, and its derivative by u."""
     residual, jacobian = residual_and_jacobian(hopper, grid, u)
     # log(sigma / sigma_0) = 0 on the axis replaces the angular equation at the wall: that equation
     # is odd with one degree less, so one of its rows is redundant.
@@ -114,23 +168,21 @@ def _newton_step(hopper: Hopper, grid: Grid, closure: Closure, u: Array) -> tupl
     column = _column(closure)
     residual[-1] = u[column] - closure.value
     jacobian[-1, column] = 1.0
+    return residual, jacobian
+
+
+def _newton_step(hopper: Hopper, grid: Grid, closure: Closure, u: Array) -> tuple[Array, Array]:
+    """Return the Newton correction, and the derivative of u by the closure's value."""
+    residual, jacobian = closed_system(hopper, grid, closure, u)
     right = np.zeros((u.size, 2), order="F")
     right[:, 0] = -residual
     right[-1, 1] = 1.0
-    # LAPACK itself: at this size numpy's checks cost as much as the solution.
-    _, _, solved, info = dgesv(jacobian, right, overwrite_b=True)
-    if info:
-        solved[:] = np.nan
+    solved = solved_by(jacobian, right)
     return solved[:, 0], solved[:, 1]
 
 
 def _column(closure: Closure) -> int:
     return -2 if closure.unknown == "psi_wall" else -1
-
-
-def _size(step: Array, u: Array) -> float:
-    """Size of a step: absolute in log(sigma) and psi, relative in tau where tau > 1."""
-    return max(float(np.abs(step[:-1]).max()), float(abs(step[-1])) / max(abs(u[-1]), 1.0))
 
 
 @checked
@@ -148,7 +200,7 @@ def newton(
         for iteration in range(_NEWTON_STEPS):
             previous = size
             step, tangent = _newton_step(hopper, grid, closure, u)
-            size = _size(step, u)
+            size = size_of(step, u)
             u = u + step
             # Linear, so met after one step but for rounding, which differs between processors.
             u[column] = closure.value
@@ -176,86 +228,7 @@ def crude_start(hopper: Hopper, grid: Grid, psi_wall: float) -> Array:
 
 
 @checked
-def refine(member: Member) -> Member:
-    """Solve on finer grids until the error is of rounding size.
-
-    The first Newton step on a finer grid is the error of the coarser one. Errors decay
-    geometrically with the number of points, so that of the finer grid is about this step to the
-    power of the ratio of their sizes.
-
-    Raises
-    ------
-    ConvergenceError
-        If the error on the finest grid exceeds 1e-6.
-    """
-    for size in _SIZES:
-        if size <= member.grid.size:
-            continue
-        grid = half_grid(size, member.hopper.half_angle, member.grid.clustering)
-        finer = newton(member.hopper, grid, member.closure, member.on(grid))
-        if finer is None:
-            break
-        stagnant = finer.error < 1e-9 and finer.error > member.error / 2
-        error = finer.error
-        if not stagnant:
-            error = min(error, _SAFETY * error ** (size / member.grid.size))
-        member = replace(finer, error=max(error, np.finfo(float).eps * size))
-        if member.error < _TOLERANCE or stagnant:
-            return member
-    if member.error < _ACCEPTABLE:
-        return member
-    raise ConvergenceError(
-        f"radial solution not resolved: {member.grid.size} half-grid points leave an error of "
-        f"{member.error:.1e}; psi is too close to its singular value, lower the wall friction"
-    )
-
-
-@checked
-def fitted(member: Member, last_step: float = 1e-7) -> Member:
-    """Move a member to the grid of its size that resolves its apex layer.
-
-    ``last_step`` as in :func:`newton`; where that fails the member stays as it is.
-    """
-    hopper = member.hopper
-    clustering = layer_clustering(hopper, member.tau)
-    grid = half_grid(member.grid.size, hopper.half_angle, clustering)
-    if grid is member.grid:
-        return member
-    return newton(hopper, grid, member.closure, member.on(grid), last_step) or member
-
-
-@checked
-def solve(hopper: Hopper, closure: Closure, start: Member | None = None) -> Member | None:
-    """Solve from ``start`` (default: a crude guess) on a coarse grid and refine.
-
-    Returns None where that does not converge.
-    """
-    for size in _coarse_sizes(start):
-        clustering = 0.0 if start is None else start.grid.clustering
-        grid = half_grid(size, hopper.half_angle, clustering)
-        if start is None:
-            u = crude_start(hopper, grid, closure.value)
-        else:
-            u = _predicted(start, closure).on(grid)
-        member = newton(hopper, grid, closure, u)
-        if member is not None:
-            try:
-                return refine(fitted(member))
-            except ConvergenceError:
-                # Too few points can have solutions of their own.
-                continue
-    return None
-
-
-def _coarse_sizes(start: Member | None) -> tuple[int, ...]:
-    """Return the grids to begin with: a neighbour needed the one after the first of them."""
-    if start is None or start.grid.size not in _SIZES:
-        return _SIZES[:3]
-    first = max(0, _SIZES.index(start.grid.size) - 1)
-    return _SIZES[first : first + 3]
-
-
-def _predicted(start: Member, closure: Closure) -> Member:
+def predicted(start: Member, closure: Closure) -> Member:
     """Move along the tangent to where the closure holds to first order."""
     column = _column(closure)
     step = (closure.value - start.u[column]) / start.tangent[column]

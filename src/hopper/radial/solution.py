@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import degrees
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from scipy.optimize import brentq
@@ -24,7 +24,8 @@ from hopper.radial.friction_limit import friction_limit
 from hopper.radial.grid import Grid
 from hopper.radial.members import member_with_tau, members_with_wall_angle, physical_member
 
-Branch = Literal["physical", "second"]
+Branch = Literal["physical", "second", "third"]
+_BRANCHES: tuple[Branch, ...] = get_args(Branch)
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,8 +37,8 @@ class RadialSolution:
     hopper : Hopper
     friction_angle : float
         Wall friction angle phi, radians.
-    branch : "physical" or "second"
-        Part of the family: before or beyond the fold.
+    branch : "physical", "second" or "third"
+        Part of the family: before the fold, beyond it, beyond a second one.
     member : Member
         The discrete solution on its collocation grid.
     """
@@ -89,7 +90,11 @@ class RadialSolution:
 
     @property
     def error_estimate(self) -> float:
-        """Of log(sigma / sigma_0), psi and log sigma_0, from the convergence of the mesh."""
+        """Bound on the errors of log(sigma / sigma_0) and psi at any theta, and of log sigma_0.
+
+        From the convergence of the mesh, and from rounding as the wall's friction magnifies it:
+        near the largest friction psi(theta_w) hardly determines the solution.
+        """
         return self.member.error
 
     @checked
@@ -183,8 +188,8 @@ def solve_radial(
         Geometry and material.
     friction_angle : float
         Wall friction angle phi = arctan(mu), radians, in [0, pi/2).
-    branch : "physical" or "second"
-        The branch connected to the smooth wall, or the one beyond the fold.
+    branch : "physical", "second" or "third"
+        The branch connected to the smooth wall, or one beyond the fold.
     start : RadialSolution, optional
         A neighbour in a sweep; saves Newton steps.
 
@@ -202,21 +207,28 @@ def solve_radial(
         If the fields cannot be resolved.
     """
     require_angle("friction_angle", friction_angle, zero_allowed=True)
-    if branch not in ("physical", "second"):
-        raise InvalidParameterError(f"branch = {branch!r} is unknown: use physical or second")
-    psi_wall = hopper.material.wall_angle(hopper.delta, friction_angle)
-    if branch == "second":
-        member = _on_second_branch(hopper, friction_angle, psi_wall)
-    else:
+    if branch not in _BRANCHES:
+        raise InvalidParameterError(
+            f"branch = {branch!r} is unknown: use physical, second or third"
+        )
+    if branch == "physical":
         member = _on_physical_branch(hopper, friction_angle, start)
-    return RadialSolution(hopper, friction_angle, branch, member)
+        return RadialSolution(hopper, friction_angle, branch, member)
+    found = _all_branches(hopper, friction_angle)
+    if len(found) <= (index := _BRANCHES.index(branch)):
+        raise NoRadialSolutionError(
+            f"phi = {degrees(friction_angle):.6g} deg has no {branch} solution: it exists only "
+            "near the fold of a cone; use branch = physical",
+            friction_limit(hopper).friction_angle,
+        )
+    return found[index]
 
 
 @checked
 def radial_solutions(hopper: Hopper, friction_angle: Radians) -> list[RadialSolution]:
-    """Return every radial stress field for the given wall friction (radians): one, or two.
+    """Return every radial stress field for the given wall friction (radians): one to three.
 
-    The physical one first.
+    The physical one first, then by falling stress on the axis.
 
     Raises
     ------
@@ -224,10 +236,17 @@ def radial_solutions(hopper: Hopper, friction_angle: Radians) -> list[RadialSolu
         As :func:`solve_radial` for the physical branch.
     """
     physical = solve_radial(hopper, friction_angle)
-    try:
-        return [physical, solve_radial(hopper, friction_angle, "second")]
-    except NoRadialSolutionError:
-        return [physical]
+    return [physical, *_all_branches(hopper, friction_angle)[1:]]
+
+
+def _all_branches(hopper: Hopper, friction_angle: float) -> list[RadialSolution]:
+    psi_wall = hopper.material.wall_angle(hopper.delta, friction_angle)
+    _require_below_limit(hopper, friction_angle)
+    members = members_with_wall_angle(hopper, psi_wall)
+    return [
+        RadialSolution(hopper, friction_angle, branch, member)
+        for branch, member in zip(_BRANCHES, members, strict=False)
+    ]
 
 
 @checked
@@ -257,7 +276,7 @@ def solve_radial_family(hopper: Hopper, sigma_axis: Positive) -> RadialSolution:
 def solution_of(member: Member) -> RadialSolution:
     """Return the radial solution of a member of the family, with the friction of its wall."""
     phi = member.hopper.material.friction_angle(member.hopper.delta, member.psi_wall)
-    branch: Branch = "physical" if member.psi_wall_by_tau > 0 else "second"
+    branch: Branch = "physical" if member.rising else "second"
     return RadialSolution(member.hopper, phi, branch, member)
 
 
@@ -276,18 +295,6 @@ def _on_physical_branch(
     if member.tau <= 0:
         raise NonPositiveStressError(_non_positive_stress(hopper, friction_angle))
     return member
-
-
-def _on_second_branch(hopper: Hopper, friction_angle: float, psi_wall: float) -> Member:
-    _require_below_limit(hopper, friction_angle)
-    found = members_with_wall_angle(hopper, psi_wall)
-    if len(found) < 2:
-        raise NoRadialSolutionError(
-            f"phi = {degrees(friction_angle):.6g} deg has no second solution: it exists only "
-            "between the mass-flow limit and the fold of a cone; use branch = physical",
-            friction_limit(hopper).friction_angle,
-        )
-    return found[1]
 
 
 def _require_below_limit(hopper: Hopper, friction_angle: float) -> None:

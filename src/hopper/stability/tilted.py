@@ -29,6 +29,7 @@ from hopper.arguments import RealLike, checked
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.errors import InvalidParameterError
+from hopper.problem import Hopper
 from hopper.radial.grid import Grid, half_grid
 from hopper.radial.solution import RadialSolution
 from hopper.spectral import chebyshev
@@ -65,7 +66,13 @@ def require_linear(solution: RadialSolution) -> None:
     InvalidParameterError
         If the material is not Mohr-Coulomb: its velocity does not decouple.
     """
-    if solution.hopper.material != MOHR_COULOMB:
+    require_mohr_coulomb(solution.hopper)
+
+
+@checked
+def require_mohr_coulomb(hopper: Hopper) -> None:
+    """Check that a hopper holds the material whose stability is formulated, as above."""
+    if hopper.material != MOHR_COULOMB:
         raise InvalidParameterError(
             "linear stability is formulated for Mohr-Coulomb materials only: use mohr-coulomb"
         )
@@ -171,7 +178,13 @@ def first_tangency(solution: RadialSolution) -> float | None:
     """Return the angle (radians) at which psi first reaches pi/4 - delta/2, None if it does not.
 
     There A of (4.1) is singular: t = log r is not a time for this solution.
+
+    Raises
+    ------
+    InvalidParameterError
+        If the material is not Mohr-Coulomb.
     """
+    require_linear(solution)
     return solution.first_angle_with(tangency_angle(solution.hopper.delta))
 
 
