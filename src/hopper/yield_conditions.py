@@ -124,7 +124,13 @@ class YieldCondition:
         """Return the major and the minor principal stress in the plane of r and theta, shape (n,).
 
         In units of sigma. The stress T_pp across that plane lies between them.
+
+        Raises
+        ------
+        InvalidParameterError
+            If delta is out of range, or sigma and psi differ in shape.
         """
+        require_angle("delta", delta)
         require_equal_shapes(sigma=sigma, psi=psi)
         s, cosine, sine = sin(delta), np.cos(2 * psi), np.sin(2 * psi)
         mean = 1 + (self.angular - self.radial) / 2 * s * cosine

@@ -93,9 +93,15 @@ def test_psi_scale_is_a_similarity(hopper):
     assert partner_distances(eigvals(plain), eigvals(scaled)).max() < 1e-10
 
 
-@pytest.mark.parametrize("n", [401, 5, 2, 0, -4, 400.0, "400"])
+@pytest.mark.parametrize("n", [401, 5, 2, 0, -4])
 def test_bad_numbers_of_nodes(n):
     with pytest.raises(InvalidParameterError, match=r"nodes: give an even integer of at least 4"):
+        paper_matrix(radial("wedge", 35, 10), n)
+
+
+@pytest.mark.parametrize("n", [400.0, "400"])
+def test_what_is_no_number_of_nodes(n):
+    with pytest.raises(InvalidParameterError, match=r"^n = .* is not a whole number: give one"):
         paper_matrix(radial("wedge", 35, 10), n)
 
 

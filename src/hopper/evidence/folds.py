@@ -70,7 +70,8 @@ def fold_mode(hopper: Hopper) -> FoldMode | None:
         np.abs(upper_eigenvalues(solution_of(fold), size)).min() for size in (_SIZE, _COARSE_SIZE)
     )
     rate = max(float(np.abs(found).min()) for found in modes) / _BESIDE
-    place = _ITERATION + _ROUNDING * 2 * _BESIDE / abs(slopes[1] - slopes[0])
+    left = _ROUNDING + abs(fold.psi_wall_by_tau * fold.tau)
+    place = _ITERATION + left * 2 * _BESIDE / abs(slopes[1] - slopes[0])
     growing = [int(np.sum((found.imag == 0) & (found.real > 0))) for found in modes]
     error = float(abs(fine - coarse)) + rate * place
     return FoldMode(limit.friction_angle, float(fine), error, growing[0], growing[1])

@@ -10,6 +10,7 @@ All radial solutions of a hopper form a curve with one member for each tau.
 
 from dataclasses import dataclass, replace
 from math import inf, isfinite
+from sys import float_info
 from typing import Literal
 
 import numpy as np
@@ -126,7 +127,7 @@ class Member:
         if not 0 < gap < FAR:
             return inf
         theta = self.grid.theta[-1:]
-        sigma = np.exp(self.log_ratio[-1:]) / self.tau
+        sigma = np.exp(self.log_ratio[-1:]) / (self.tau or float_info.min)
         steep = slopes(self.hopper, theta, sigma, self.psi[-1:])[1][0] * theta[0]
         return float(gap / (2 * steep)) if steep > 0 else inf
 

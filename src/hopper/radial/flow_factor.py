@@ -23,6 +23,6 @@ def flow_factor(solution: RadialSolution) -> float:
     angle = degrees(hopper.half_angle)
     h = 2 + angle / 60 if hopper.geometry == "cone" else 1 + angle / 180
     major, _ = hopper.material.principal_stresses(
-        hopper.delta, np.array(solution.sigma_wall), np.array(solution.psi_wall)
+        hopper.delta, np.array([solution.sigma_wall]), np.array([solution.psi_wall])
     )
-    return float(h * major / (2 * sin(hopper.half_angle)))
+    return h * float(major[0]) / (2 * sin(hopper.half_angle))

@@ -62,6 +62,15 @@ class Modes:
         """Index of the mode with the largest real part."""
         return int(np.argmax(self.eigenvalues.real))
 
+    def _first(self, count: int, line: float) -> "Modes":
+        """Return the first modes, up to one beyond ``count`` that exceeds them and the line."""
+        level = max(line, float(self.eigenvalues[:count].real.max()))
+        beyond = self.eigenvalues.real - self.errors
+        beyond[:count] = level
+        if beyond.max() > level:
+            count = int(beyond.argmax()) + 1
+        return Modes(self.eigenvalues[:count], self.errors[:count])
+
 
 @dataclass(frozen=True)
 class LinearStability:
@@ -218,6 +227,7 @@ def _low_modes(
 ) -> Modes:
     """Return converged low modes; ``start`` has those of the first meshes.
 
+    They are as many as wanted, and more if one of larger modulus governs.
     Errors decay geometrically with the mesh, so that of the finer of two meshes is about their
     difference to the power of their ratio. A mode counts while it and all of smaller modulus have
     a partner on the coarser mesh and an error below what is wanted by that estimate.
@@ -229,14 +239,15 @@ def _low_modes(
         error = partner_changes(fine, coarse) ** (size / previous)
         coarse = fine
         unresolved = np.flatnonzero(error > wanted.others)
-        converged = min(int(unresolved[0]) if unresolved.size else fine.size, wanted.count)
-        if converged < LEAST_MODES:
+        run = int(unresolved[0]) if unresolved.size else fine.size
+        if run < LEAST_MODES:
             continue
         # Rounding of the collocation matrix: a few units of its condition, about size ** 2.
-        relative = _MESH_SAFETY * error[:converged] + _EPS * size**2
+        relative = _MESH_SAFETY * error[:run] + _EPS * size**2
         relative += _FIELD_SAFETY * solution.error_estimate
-        best = Modes(fine[:converged], relative * np.maximum(np.abs(fine[:converged]), 1))
-        top = best.highest
+        resolved = Modes(fine[:run], relative * np.maximum(np.abs(fine[:run]), 1))
+        best = resolved._first(wanted.count, wanted.line)
+        converged, top = best.eigenvalues.size, best.highest
         by_line = wanted.line - best.eigenvalues[top].real > best.errors[top]
         if converged >= wanted.count and (by_line or error[top] < wanted.tolerance):
             return best
