@@ -1,4 +1,4 @@
-"""Representations of results in one short line, with the numbers a person wants."""
+"""Results in one short line, and numbers in messages, as a person wants them."""
 
 from collections.abc import Callable
 from math import degrees
@@ -18,6 +18,15 @@ def brief(*shown: str) -> Callable[[Any], str]:
         return f"{type(self).__name__}({', '.join(_shown(self, name) for name in shown)})"
 
     return __repr__
+
+
+def apart(*values: float) -> list[str]:
+    """Return numbers that differ with as many digits as show it, at least six."""
+    for digits in range(6, 18):
+        found = [f"{value:.{digits}g}" for value in values]
+        if len(set(found)) == len(set(values)):
+            break
+    return found
 
 
 def _shown(result: Any, name: str) -> str:

@@ -39,3 +39,10 @@ class SingularVelocityError(HopperError):
 
 class ConvergenceError(HopperError):
     """An iteration did not reach an acceptable error; the message names the achieved one."""
+
+
+def not_resolved_because(friction_angle: float) -> str:
+    """Return why a solution for a wall friction (radians) may be hard to resolve, and a remedy."""
+    if friction_angle > 0:
+        return "psi is too close to its singular value, lower the wall friction"
+    return "delta or the half angle is extreme, take another one"

@@ -18,7 +18,7 @@ import numpy as np
 
 from hopper.arguments import Radians, Row, checked
 from hopper.arrays import Array
-from hopper.brief import brief
+from hopper.brief import apart, brief
 from hopper.errors import InvalidParameterError, WallFrictionError
 from hopper.values import require_angle, require_equal_shapes, shown
 
@@ -56,11 +56,13 @@ class YieldCondition:
         inclination = atan(self.angular * tan(friction_angle))
         ratio = sin(inclination) / (self.angular * sin(delta))
         if ratio > 1 + _ROUNDING:
-            largest = degrees(self.largest_friction_angle(delta))
+            phi, largest = apart(
+                degrees(friction_angle), degrees(self.largest_friction_angle(delta))
+            )
             raise WallFrictionError(
-                f"wall friction angle phi = {degrees(friction_angle):.6g} deg has no wall angle: "
+                f"wall friction angle phi = {phi} deg has no wall angle: "
                 f"a {self.name} material with delta = {degrees(delta):.6g} deg transmits at most "
-                f"phi = {largest:.6g} deg; lower phi (or mu) or raise delta"
+                f"phi = {largest} deg; lower phi (or mu) or raise delta"
             )
         return 0.5 * (inclination + asin(min(ratio, 1.0)))
 

@@ -13,7 +13,7 @@ from hopper.assessment.limits import assess_limits, tangency_coefficient
 from hopper.assessment.neutral import Interval, NeutralPoint, assess_neutral
 from hopper.assessment.radial import assess_radial
 from hopper.assessment.stability import StabilityAssessment, assess_stability
-from hopper.errors import ConvergenceError, HopperError, WallFrictionError
+from hopper.errors import ConvergenceError, WallFrictionError
 from hopper.problem import as_geometry
 from hopper.quantity import Quantity
 from hopper.radial.solution import solve_radial
@@ -61,7 +61,7 @@ def _radial(options: Namespace) -> str:
             rows + limits,
             limit_end=end,
             error_estimate=max(row.relative_error for row in main),
-            notes=found.notes,
+            notes=[*options.doubts, *found.notes],
         )
     shown = [row for row in limits if row.variable.name != "mu_limit" or end != "fold"]
     return _text(
@@ -96,7 +96,7 @@ def _stability(options: Namespace) -> str:
             verdict=found.verdict,
             disturbances="any" if "asymmetric" in shown else "symmetric",
             error_estimate=found.abscissa.error,
-            notes=notes,
+            notes=[*options.doubts, *notes],
             errors={_JSON[parity]: errors.tolist() for parity, (_, errors) in shown.items()},
         )
     cells = [
@@ -143,6 +143,7 @@ def _neutral(options: Namespace) -> str:
             governed_by=first and first.governed_by,
             parity=first and first.parity,
             error_estimate=first and rows[0].error,
+            notes=options.doubts,
         )
     return _text(
         f"Neutral stability: {geometry}, half angle {options.half_angle:g} deg, {wall}",
@@ -187,11 +188,11 @@ def _case(options: Namespace) -> Case:
     return case
 
 
-def _explained(error: HopperError, what: str, mu: Quantity | None) -> HopperError:
+def _explained(error: ConvergenceError, what: str, mu: Quantity | None) -> ConvergenceError:
     """Return the error with the largest friction that has ``what``, where that is known."""
     if mu is None:
         return error
-    return HopperError(f"{error}; the largest friction with {what} is {Wall.of(mu.value)}")
+    return type(error)(f"{error}; the largest friction with {what} is {Wall.of(mu.value)}")
 
 
 def _text(title: str, cells: Sequence[tuple[str, str]], sentences: Sequence[str]) -> str:
@@ -199,6 +200,7 @@ def _text(title: str, cells: Sequence[tuple[str, str]], sentences: Sequence[str]
 
 
 def _json(inputs: dict[str, Any], rows: Sequence[Row], **more: Any) -> str:
+    rows = [*rows, *(row.in_degrees() for row in rows if row.variable.units == "radian")]
     errors = {row.variable.name: row.error for row in rows if row.error is not None}
     errors |= more.pop("errors", {})
     numbers = {row.variable.name: row.value for row in rows}

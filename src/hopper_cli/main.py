@@ -4,6 +4,7 @@ Numerics, netCDF and plots are imported once the options are known to be right a
 """
 
 import argparse
+import json
 import os
 import sys
 from collections.abc import Callable, Sequence
@@ -14,6 +15,7 @@ from typing import NoReturn
 
 import hopper
 from hopper.errors import HopperError, InvalidParameterError
+from hopper_cli import hints
 from hopper_cli.errors import UsageError
 from hopper_cli.outputs import FileError, checked
 
@@ -42,19 +44,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     The answer goes to stdout, errors to stderr as one line each.
     """
+    given = sys.argv[1:] if arguments is None else arguments
     try:
-        options = _parser().parse_args(arguments)
-        _check(options)
-        # Only now: the numerics take most of the time.
-        from hopper_cli import commands
-
-        print(commands.answer(options), flush=True)
-    except SystemExit as finished:  # --help and --version
-        return int(finished.code or 0)
-    except (UsageError, InvalidParameterError) as error:
-        return _fail(error, _USAGE)
-    except HopperError as error:
-        return _fail(error, _NO_ANSWER)
+        return _run(given)
     except KeyboardInterrupt:
         return _INTERRUPTED
     except OSError as error:
@@ -63,11 +55,36 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if isinstance(error, BrokenPipeError):
             return _BROKEN_PIPE
         return _fail(f"standard output: {error.strerror}", _NO_ANSWER)
+
+
+def _run(arguments: Sequence[str]) -> int:
+    """Print the answer, or why there is none; with ``--json`` both are JSON on stdout."""
+    doubts: list[str] = []
+    try:
+        options = _parser().parse_args(arguments)
+        options.doubts = doubts = hints.doubts(options)
+        _check(options)
+        # Only now: the numerics take most of the time.
+        from hopper_cli import commands
+
+        answer = commands.answer(options)
+    except SystemExit as finished:  # --help and --version
+        return int(finished.code or 0)
+    except HopperError as error:
+        usage = isinstance(error, InvalidParameterError | UsageError)
+        message = "; ".join([str(error), *doubts])
+        if "--json" in arguments:
+            document = {"error": {"kind": type(error).__name__, "message": message}}
+            print(json.dumps(document, indent=2), flush=True)
+        return _fail(message, _USAGE if usage else _NO_ANSWER)
+    for doubt in doubts:
+        print(f"hopper: warning: {doubt}", file=sys.stderr)
+    print(answer, flush=True)
     return 0
 
 
-def _fail(error: Exception | str, code: int) -> int:
-    print(f"hopper: error: {error}", file=sys.stderr)
+def _fail(message: str, code: int) -> int:
+    print(f"hopper: error: {message}", file=sys.stderr)
     return code
 
 
@@ -148,7 +165,11 @@ def _command(
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
-    command.add_argument("--json", action="store_true", help="print JSON; psi is in radians")
+    command.add_argument(
+        "--json",
+        action="store_true",
+        help="print JSON, errors too; psi_wall and psi_max are in radians, ..._deg in degrees",
+    )
     return command
 
 
@@ -158,7 +179,11 @@ def _add_geometry(command: argparse.ArgumentParser) -> None:
 
 def _add_half_angle_and_wall(command: argparse.ArgumentParser) -> None:
     command.add_argument(
-        "--half-angle", type=_angle, required=True, metavar="DEG", help="half opening angle"
+        "--half-angle",
+        type=_angle,
+        required=True,
+        metavar="DEG",
+        help="half opening angle, from the vertical",
     )
     wall = command.add_mutually_exclusive_group(required=True)
     wall.add_argument("--mu", type=_coefficient, help="coefficient of wall friction, tan(phi)")

@@ -11,7 +11,7 @@ from hopper.stability.modes import Governor
 from hopper_data.tables import Row, Variable
 
 _DIGITS = 10
-_UNITS = {"degree": "deg", "radian": "rad", "1": ""}
+_UNITS = {"degree": "deg", "1": ""}
 
 
 def rounded(value: float, error: float | None) -> str:
@@ -43,9 +43,10 @@ def complex_with_error(value: complex, error: float) -> str:
 
 def number_cells(rows: Sequence[Row]) -> list[tuple[str, str]]:
     """Return label, and value with error and unit, of every number that exists."""
+    shown = [row.in_degrees() if row.variable.units == "radian" else row for row in rows]
     return [
         (row.variable.label, f"{with_error(row.value, row.error)} {_unit(row.variable)}".rstrip())
-        for row in rows
+        for row in shown
         if row.value is not None
     ]
 

@@ -165,6 +165,14 @@ class Row:
             return radians(self.error)
         return self.error if units == "radian" else self.error / abs(self.value)
 
+    def in_degrees(self) -> "Row":
+        """Return the row of an angle in radians in degrees, named accordingly."""
+        variable = angle(f"{self.variable.name}_deg", self.variable.label)
+        value, error = (
+            None if number is None else degrees(number) for number in (self.value, self.error)
+        )
+        return Row(variable, value, error)
+
 
 def rows(result: Any, table: Iterable[Variable]) -> list[Row]:
     """Return a row for each variable that is a single number."""

@@ -26,6 +26,7 @@ STEEL = "--geometry cone --model mohr-coulomb --delta 40 --half-angle 20 --mu 0.
 SINGULAR = "--geometry cone --delta 25 --half-angle 30 --mu 0.4"
 RADIAL_KEYS = {
     "sigma_axis", "sigma_wall", "psi_wall", "psi_max", "u_wall", "flow_factor", "mu_fold",
+    "psi_wall_deg", "psi_max_deg",
     "mass_flow_limit_deg", "error_estimate",
 }  # fmt: skip
 STABILITY_KEYS = {
@@ -100,7 +101,8 @@ def test_radial(answer):
 def test_the_error_estimate_of_radial_is_the_largest_relative_one(answer):
     found = answer(f"radial {STEEL}")
     errors = found["errors"]
-    keys = RADIAL_KEYS - {"error_estimate", "psi_wall", "psi_max", "mass_flow_limit_deg"}
+    psi = {"psi_wall", "psi_max", "psi_wall_deg", "psi_max_deg"}
+    keys = RADIAL_KEYS - psi - {"error_estimate", "mass_flow_limit_deg"}
     relative = [errors[key] / found[key] for key in keys]
     relative += [errors["psi_wall"], errors["psi_max"], radians(errors["theta_psi_max_deg"])]
     assert found["error_estimate"] == pytest.approx(
@@ -350,7 +352,7 @@ def test_a_wrong_option_is_named(run, command, message):
 
 @pytest.mark.parametrize(("command", "message"), NO_ANSWER)
 def test_where_there_is_no_answer_the_limit_is_named(run, command, message):
-    code, out, err = run(f"{command} --json")
+    code, out, err = run(command)
     assert (code, out) == (1, "")
     assert is_one_error(err, message), err
 
@@ -538,6 +540,88 @@ def test_no_answer_leaves_no_file(run, tmp_path):
     code, _, _ = run(f"stability {CONE} --mu 0.36 --profile {tmp_path / 'out.csv'}")
     assert code == 1
     assert list(tmp_path.iterdir()) == []
+
+
+# --- doubts, refusals ----------------------------------------------------------------------------
+
+
+RADIANS = "--geometry cone --delta 0.698 --half-angle 0.349"
+
+
+@pytest.mark.parametrize(
+    "command",
+    [f"radial {RADIANS} --phi 0.29", f"radial {RADIANS} --mu 0.005", f"stability {RADIANS} --mu 0",
+     "neutral --geometry cone --half-angle 0.349 --phi 0.29"],
+)  # fmt: skip
+def test_radians_are_doubted(run, command):
+    code, out, err = run(f"{command} --json")
+    assert "all angles are below 1.6 degrees: are they in radians? give degrees" in err + out
+    if code == 0:
+        assert err.startswith("hopper: warning: all angles")
+        assert "are they in radians" in json.loads(out)["notes"][0]
+
+
+@pytest.mark.parametrize(
+    "command", [f"radial {STEEL}", "neutral --geometry cone --half-angle 1 --mu 0.3"]
+)
+def test_degrees_are_not_doubted(run, command):
+    assert "warning" not in run(command)[2]
+
+
+def test_a_coefficient_that_looks_like_an_angle(run):
+    for command in ("radial", "stability"):
+        code, _, err = run(f"{command} {CONE} --mu 16.7")
+        assert code == 2
+        assert is_one_error(err, "was --phi 16.7 meant?")
+    code, _, err = run("radial --geometry wedge --delta 80 --half-angle 20 --mu 3")
+    assert code == 0
+    assert err == ("hopper: warning: --mu 3 is a coefficient: was --phi 3 meant?\n")
+
+
+def test_numbers_in_a_refusal_differ(run, answer):
+    limit = answer(f"radial {CONE} --mu 0.3")["mu_limit"]
+    _, _, err = run(f"radial {CONE} --mu {limit * (1 + 1e-12)!r}")
+    numbers = re.findall(r"mu = ([\d.]+)\)", err)
+    assert len(numbers) == len(set(numbers)) == 2
+    assert float(numbers[0]) > float(numbers[1])
+    _, _, err = run("radial --geometry wedge --delta 40 --half-angle 20 --phi 40.0000001")
+    numbers = re.findall(r"phi = ([\d.]+) deg", err)
+    assert len(numbers) == len(set(numbers)) == 2
+
+
+def test_advice_fits_the_cause(run):
+    _, _, err = run("neutral --geometry cone --half-angle 89 --phi 0")
+    assert "lower the wall friction" not in err
+
+
+@pytest.mark.parametrize(
+    ("command", "code", "kind"),
+    [
+        (f"radial {CONE} --mu 0.36", 1, "NoRadialSolutionError"),
+        (f"stability {CONE} --mu 0.36", 1, "NoRadialSolutionError"),
+        (f"radial {CONE} --mu 5", 2, "UsageError"),
+        (f"radial {CONE} --mu x", 2, "UsageError"),
+        ("neutral --geometry cone --half-angle 45 --phi 40", 1, "NoRadialSolutionError"),
+    ],
+)
+def test_without_an_answer_json_has_the_error(run, command, code, kind):
+    found, out, err = run(f"{command} --json")
+    assert found == code
+    assert json.loads(out) == {
+        "error": {"kind": kind, "message": err.removeprefix("hopper: error: ").rstrip("\n")}
+    }
+
+
+def test_the_help_says_what_the_half_angle_is_measured_from(run):
+    assert "half opening angle, from the vertical" in " ".join(run("radial --help")[1].split())
+
+
+def test_angles_in_degrees_beside_radians(answer, run):
+    found = answer(f"radial {STEEL}")
+    for key in ("psi_wall", "psi_max"):
+        assert found[f"{key}_deg"] == pytest.approx(degrees(found[key]), rel=1e-15)
+        assert found["errors"][f"{key}_deg"] == pytest.approx(degrees(found["errors"][key]))
+    assert " rad" not in run(f"radial {STEEL}")[1].replace("radial", "")
 
 
 # --- the installed command -----------------------------------------------------------------------

@@ -118,7 +118,8 @@ def stable_deltas(
     if not runs:
         raise NoRadialSolutionError(
             f"no {geometry} of half angle {degrees(half_angle):.6g} deg has a resolved radial "
-            f"solution at phi = {degrees(friction_angle):.6g} deg: lower the wall friction",
+            f"solution at phi = {degrees(friction_angle):.6g} deg: "
+            + ("lower the wall friction" if friction_angle else "narrow the hopper"),
             None,
         )
     for run in runs:

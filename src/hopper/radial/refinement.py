@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from hopper.arguments import checked
-from hopper.errors import ConvergenceError
+from hopper.errors import ConvergenceError, not_resolved_because
 from hopper.problem import Hopper
 from hopper.radial.collocation import (
     FAR,
@@ -71,7 +71,7 @@ def refine(member: Member, tolerance: float = TOLERANCE) -> Member:
         return member
     raise ConvergenceError(
         f"radial solution not resolved: {member.grid.size} half-grid points leave an error of "
-        f"{member.error:.1e}; psi is too close to its singular value, lower the wall friction"
+        f"{member.error:.1e}; {not_resolved_because(member.psi_wall)}"
     )
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import degrees
+from math import degrees, tan
 from typing import Literal, get_args
 
 import numpy as np
@@ -10,12 +10,13 @@ from scipy.optimize import brentq
 
 from hopper.arguments import Positive, Radians, RealLike, checked
 from hopper.arrays import Array
-from hopper.brief import brief
+from hopper.brief import apart, brief
 from hopper.errors import (
     ConvergenceError,
     InvalidParameterError,
     NonPositiveStressError,
     NoRadialSolutionError,
+    not_resolved_because,
 )
 from hopper.problem import Hopper, as_angles, require_angle
 from hopper.radial.collocation import Member
@@ -289,8 +290,8 @@ def _on_physical_branch(
     if member is None:
         _require_below_limit(hopper, friction_angle)
         raise ConvergenceError(
-            f"radial solution not resolved at phi = {degrees(friction_angle):.6g} deg: psi is too "
-            "close to its singular value; lower the wall friction"
+            f"radial solution not resolved at phi = {degrees(friction_angle):.6g} deg: "
+            f"{not_resolved_because(friction_angle)}"
         )
     if member.tau <= 0:
         raise NonPositiveStressError(_non_positive_stress(hopper, friction_angle))
@@ -307,11 +308,11 @@ def _require_below_limit(hopper: Hopper, friction_angle: float) -> None:
         "interior": "psi reaches its singular angle inside the hopper there",
         "axis": "the stress on the axis vanishes there",
     }[limit.end]
+    phi, largest = apart(degrees(friction_angle), degrees(limit.friction_angle))
+    mu, largest_mu = apart(tan(friction_angle), tan(limit.friction_angle))
     raise NoRadialSolutionError(
-        f"no radial solution at phi = {degrees(friction_angle):.6g} deg "
-        f"(mu = {np.tan(friction_angle):.6g}): the largest friction that has one is "
-        f"phi = {degrees(limit.friction_angle):.6g} deg "
-        f"(mu = {np.tan(limit.friction_angle):.6g}), {reason}; lower the wall friction",
+        f"no radial solution at phi = {phi} deg (mu = {mu}): the largest friction that has one is "
+        f"phi = {largest} deg (mu = {largest_mu}), {reason}; lower the wall friction",
         limit.friction_angle,
     )
 

@@ -17,7 +17,7 @@ import numpy as np
 from hopper.arguments import checked
 from hopper.arrays import Array
 from hopper.brief import brief
-from hopper.errors import ConvergenceError
+from hopper.errors import ConvergenceError, not_resolved_because
 from hopper.radial.grid import Grid
 from hopper.radial.solution import RadialSolution
 from hopper.spectral import chebyshev
@@ -72,8 +72,8 @@ def asymptotic_line(
         line, done = _by_quadrature(solution, *_on_grid(solution, size))
     if line.error_estimate > _ACCEPTABLE * max(1.0, abs(line.abscissa)):
         raise ConvergenceError(
-            f"asymptotic line not resolved: error {line.error_estimate:.1e}; psi is too close to "
-            "its singular value, lower the wall friction"
+            f"asymptotic line not resolved: error {line.error_estimate:.1e}; "
+            f"{not_resolved_because(solution.friction_angle)}"
         )
     return line
 

@@ -17,7 +17,7 @@ import numpy as np
 from hopper.arguments import ComplexRow, checked
 from hopper.arrays import Array, Complex
 from hopper.brief import brief
-from hopper.errors import ConvergenceError, InvalidParameterError
+from hopper.errors import ConvergenceError, InvalidParameterError, not_resolved_because
 from hopper.problem import Geometry
 from hopper.radial.solution import RadialSolution
 from hopper.stability.asymptotic_line import AsymptoticLine, asymptotic_line
@@ -254,7 +254,7 @@ def _low_modes(
     if best is None:
         raise ConvergenceError(
             f"fewer than {LEAST_MODES} low {parity} modes converged at {size} half-grid points; "
-            "psi is too close to its singular value, lower the wall friction"
+            f"{not_resolved_because(solution.friction_angle)}"
         )
     return best
 
