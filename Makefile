@@ -78,7 +78,7 @@ soak: .venv/test.stamp
 
 reliability: .venv/test.stamp .venv/cluster.stamp
 	@rm -rf .reliability
-	@$(BIN)/python -m pytest -m '' $(RELIABILITY:%=tests/workflow/test_%.py) tests/slurm
+	@$(BIN)/python -m pytest -m '' tests/radial/test_coverage.py $(RELIABILITY:%=tests/workflow/test_%.py) tests/slurm
 	@$(BIN)/python -m tests.reliability > docs/reliability.md
 
 # On a SLURM of its own, which it installs and starts: Debian, root, some ten minutes.
