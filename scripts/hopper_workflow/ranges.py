@@ -12,10 +12,10 @@ def closing_in(stop: float, points: int) -> np.ndarray:
     """Return values from 0 that close in on stop as a parabola does on its vertex.
 
     So a curve with a vertical tangent at stop is drawn in even steps. The last value stays below
-    stop by what rounding could make of it.
+    stop by 1e-10 of it: closer, what belongs to it may not be resolved.
     """
     left = np.linspace(1, 0, points)
-    left[-1] = 1e-6
+    left[-1] = 1e-5
     return stop * (1 - left**2)
 
 

@@ -382,7 +382,7 @@ CHANGES = {
     "unstable_wedge_oscillates": {("linear", "oscillation"): constant(0.1)},
     "stable_cone_oscillates": {("linear", "oscillation"): constant(1)},
     "convergence_is_not_monotone": {("cone", "growth"): np.sort},
-    "friction_range_is_regular": each(MAPS, "abscissa", constant(-1)),
+    "friction_range_is_regular": each(MAPS, "limit_mu", constant(1)),
     "log_r_is_a_time_for_all": each(MAPS, "tangency_mu", constant(2)),
     "symmetric_disturbances_suffice": each(WEDGES, "abscissa_symmetric", constant(100)),
     "small_friction_stabilises": each(MAPS, "abscissa", tilted(10)),

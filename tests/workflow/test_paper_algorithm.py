@@ -19,8 +19,8 @@ def test_values_close_in_on_the_end():
     values = ranges.closing_in(2.0, 101)
     assert values[0] == 0
     assert np.all(np.diff(values) > 0)
-    assert 0 < 1 - values[-1] / 2 <= 1e-12
-    np.testing.assert_allclose(np.diff(np.sqrt(1 - values / 2)), -0.01, atol=2e-6)
+    assert 0 < 1 - values[-1] / 2 <= 1.1e-10
+    np.testing.assert_allclose(np.diff(np.sqrt(1 - values / 2)), -0.01, atol=2e-5)
 
 
 def test_a_tolerance_that_keeps_nothing_leaves_a_gap_and_its_reason():
@@ -47,9 +47,9 @@ def test_a_curve_to_the_limit_ends_where_the_fold_is_neutral():
     )
     limit = tan(friction_limit(Hopper("cone", radians(35), radians(30))).friction_angle)
     assert float(data.limit_mu[0]) == pytest.approx(limit, rel=1e-12)
-    assert limit * (1 - 2e-12) < float(data.mu[0, -1]) < limit
-    # A real mode passes 0 with the root of the distance to the fold, here 1e-6 of its scale.
-    assert -1e-4 < float(data.abscissa[0, -1]) < 1e-6
+    assert limit * (1 - 2e-10) < float(data.mu[0, -1]) < limit
+    # A real mode passes 0 with the root of the distance to the fold, here 1e-5 of its scale.
+    assert -1e-3 < float(data.abscissa[0, -1]) < 1e-6
     assert np.all(data.abscissa[0, :-1] < -0.3)
     assert "check_mu" not in data
 
@@ -58,7 +58,7 @@ def test_a_curve_that_reaches_its_limit_before_the_range_does_ends_there():
     data = compute_friction_curve(
         geometry="cone", half_angle_deg=30, deltas_deg=[35, 25], mu={"stop": 0.35, "points": 5}
     )
-    assert float(data.mu[0, -1]) == pytest.approx(float(data.limit_mu[0]), rel=1e-11)
+    assert float(data.mu[0, -1]) == pytest.approx(float(data.limit_mu[0]), rel=2e-10)
     np.testing.assert_allclose(data.mu[1], np.linspace(0, 0.35, 5), rtol=1e-12)
 
 

@@ -59,12 +59,16 @@ def friction_range_is_regular(
     wedge_10: xr.Dataset, cone_10: xr.Dataset, wedge_30: xr.Dataset, cone_30: xr.Dataset
 ) -> Finding:
     artifacts = (wedge_10, cone_10, wedge_30, cone_30)
-    good = [bool(np.isfinite(row).all()) for data in artifacts for row in _abscissae(data)]
+    last = float(values(wedge_10, "mu").max())
     ends = np.concatenate([values(data, "limit_mu") for data in artifacts])
+    rows = [row for data in artifacts for row in _abscissae(data)]
+    good = [
+        bool(np.isfinite(row).all() and end > last) for row, end in zip(rows, ends, strict=True)
+    ]
     return counted(
         sum(good),
         len(good),
-        f"{_named(good, *artifacts)} Range plotted: mu up to {values(wedge_10, 'mu').max():g}; the "
+        f"{_named(good, *artifacts)} Range plotted: mu up to {last:g}; the "
         f"earliest limit of friction is mu = {ends.min():.3f}.",
     )
 

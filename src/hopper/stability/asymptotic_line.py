@@ -63,14 +63,14 @@ def asymptotic_line(
     InvalidParameterError
         If the material is not Mohr-Coulomb.
     ConvergenceError
-        If the quadrature does not reach 1e-6; psi is then too close to its singular value.
+        If the quadrature does not reach 1e-6, relative; psi is too close to its singular value.
     """
-    line, done = _by_quadrature(solution, *(first or _on_grid(solution, _SIZES[0])))
+    line, tail = _by_quadrature(solution, *(first or _on_grid(solution, _SIZES[0])))
     for size in _SIZES:
-        if done:
+        if tail < _TOLERANCE:
             break
-        line, done = _by_quadrature(solution, *_on_grid(solution, size))
-    if line.error_estimate > _ACCEPTABLE * max(1.0, abs(line.abscissa)):
+        line, tail = _by_quadrature(solution, *_on_grid(solution, size))
+    if tail > _ACCEPTABLE:
         raise ConvergenceError(
             f"asymptotic line not resolved: error {line.error_estimate:.1e}; "
             f"{not_resolved_because(solution.friction_angle)}"
@@ -85,8 +85,8 @@ def _on_grid(solution: RadialSolution, size: int) -> tuple[Grid, TiltedCoefficie
 
 def _by_quadrature(
     solution: RadialSolution, grid: Grid, at: TiltedCoefficients
-) -> tuple[AsymptoticLine, bool]:
-    """Return the line on one grid, and whether a finer one would be of no use."""
+) -> tuple[AsymptoticLine, float]:
+    """Return the line on one grid, and what the grid leaves of its error, relative."""
     slowness = cos(solution.hopper.delta) / at.w
     growth = (at.f11 + at.f22) / 2
     travel_time = float(grid.weights @ slowness)
@@ -95,7 +95,7 @@ def _by_quadrature(
     tail = _tail(grid, (growth - abscissa) * slowness, slowness * size) / travel_time
     sensitivity = float(np.abs(growth).max() + size)
     error = tail + sensitivity * solution.error_estimate + _ROUNDING * size
-    return AsymptoticLine(abscissa, pi / travel_time, error), tail < _TOLERANCE * size
+    return AsymptoticLine(abscissa, pi / travel_time, error), tail / size
 
 
 def _tail(grid: Grid, *integrands: Array) -> float:
