@@ -42,7 +42,7 @@ def compute_friction_curve(
         ],
         "ends": ends,
         "mu": frictions,
-        "check": check and _checked(hoppers, [row[-1] for row in frictions], **check),
+        "check": check and _checked(hoppers, ends, mu["stop"], **check),
         "delta": deltas_deg,
     }
     return dataset(result, TABLE, AXES)
@@ -55,9 +55,13 @@ def _frictions(limit: float, stop: float | str, points: int) -> np.ndarray:
 
 
 def _checked(
-    hoppers: Sequence[Hopper], ends: Sequence[float], points: int, **meshes: Any
+    hoppers: Sequence[Hopper],
+    ends: Sequence[dict[str, float]],
+    stop: float | str,
+    points: int,
+    **meshes: Any,
 ) -> dict[str, Any]:
-    checked = [ranges.spaced(0, end, points) for end in ends]
+    checked = [_frictions(end["limit"], stop, points) for end in ends]
     at = [
         (hopper, atan(value))
         for hopper, frictions in zip(hoppers, checked, strict=True)

@@ -44,14 +44,20 @@ def compute_paper_border(
 
     report = jobs.progress(logging.getLogger(), "wall frictions")
     phis = np.radians(corner) * np.arange(frictions) / frictions
-    deltas = np.radians(ranges.steps(**delta_deg))
+    deltas, width = np.radians(ranges.steps(**delta_deg)), radians(width_deg)
     rows: list[dict[str, Any]] = []
     for index, phi in enumerate(phis):
-        found = sign_changes(lambda delta: abscissa(delta, phi), deltas, radians(width_deg))  # noqa: B023
+        # Solutions begin close above delta = phi.
+        first = phi + _BEYOND * width
+        places = [first, *deltas[deltas > first + width]]
+        found = sign_changes(lambda delta: abscissa(delta, phi), places, width)  # noqa: B023
         rows += [{**vars(change), "phi": phi} for change in found]
         report(index + 1, frictions)
     return dataset({"changes": rows, "phi": np.degrees(phis)}, TABLE, AXES)
 
+
+# In widths of a bracket.
+_BEYOND = 10
 
 TABLE: Table = (
     angle("change_phi", "wall friction", "change", "changes.phi"),

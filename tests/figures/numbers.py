@@ -108,7 +108,7 @@ def deviations(
     for rule in entry["rules"]:
         if "spectrum" in rule:
             drawn = _matched(drawn, stored, rule["spectrum"])
-        if "curve" in rule:
+        if "curve" in rule and rule["curve"][0] in stored:
             yield (
                 rule,
                 " over ".join(rule["curve"]),
@@ -159,6 +159,8 @@ def _matched(drawn: xr.Dataset, stored: xr.Dataset, name: str) -> xr.Dataset:
 
     The order of an artifact's eigenvalues depends on rounding; so does any comparison by index.
     """
+    if f"{name}_real" not in stored:
+        return drawn
     (dimension,) = drawn[f"{name}_real"].dims
     if drawn.sizes[dimension] != stored.sizes[dimension]:
         return drawn
