@@ -2,13 +2,16 @@
 
 from collections.abc import Sequence
 from math import degrees, floor, log10
+from typing import TYPE_CHECKING
 
-from hopper.assessment.neutral import NeutralAssessment
-from hopper.domain.neutral_points import IntervalEnd
 from hopper.quantity import Quantity
-from hopper.stability.collocation import Parity
-from hopper.stability.modes import Governor
 from hopper_data.tables import Row, Variable
+
+if TYPE_CHECKING:  # the page of a case needs no numerics
+    from hopper.assessment.neutral import NeutralAssessment
+    from hopper.domain.neutral_points import IntervalEnd
+    from hopper.stability.collocation import Parity
+    from hopper.stability.modes import Governor
 
 _DIGITS = 10
 _UNITS = {"degree": "deg", "1": ""}
@@ -61,7 +64,7 @@ def table(cells: Sequence[tuple[str, str]]) -> str:
     return "\n".join(f"  {label:<{width}}  {number}" for label, number in cells)
 
 
-def neutral_cells(found: NeutralAssessment) -> list[tuple[str, str]]:
+def neutral_cells(found: "NeutralAssessment") -> list[tuple[str, str]]:
     """Return a line for each neutral delta and each stable interval, in degrees."""
     points = [
         (
@@ -81,13 +84,13 @@ def neutral_cells(found: NeutralAssessment) -> list[tuple[str, str]]:
     return points + intervals or [("stable delta", "none")]
 
 
-def described(governor: Governor, parity: Parity | None) -> str:
+def described(governor: "Governor", parity: "Parity | None") -> str:
     """Return what governs in words."""
     return "the asymptotic line" if parity is None else f"{_ARTICLE[parity]} {governor}"
 
 
-_ARTICLE: dict[Parity, str] = {"symmetric": "a symmetric", "asymmetric": "an asymmetric"}
-ENDS: dict[IntervalEnd, str] = {
+_ARTICLE: "dict[Parity, str]" = {"symmetric": "a symmetric", "asymmetric": "an asymmetric"}
+ENDS: "dict[IntervalEnd, str]" = {
     "neutral": "neutral",
     "fold": "limit of friction: a fold",
     "wall": "the wall is as rough as the material",

@@ -13,6 +13,8 @@ import hopper
 from hopper_data.decoding import decoded
 from hopper_data.files import replacing
 
+# Bytes below which a disk is full for an artifact.
+_LITTLE = 2**16
 WRITTEN_BY = f"written by hopper {hopper.__version__}"
 PAPER = (
     "P.-A. Gremaud, J. V. Matthews, M. Shearer, Similarity solutions for granular flows in "
@@ -60,9 +62,11 @@ def write(
     with replacing(path) as temporary:
         try:
             dataset.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
-        except RuntimeError as error:
-            # What the library says of a full disk is "HDF error".
+        except (RuntimeError, PermissionError) as error:
+            # What the library says of a full disk is "HDF error", or that permission is denied.
             free = shutil.disk_usage(temporary.parent).free
+            if isinstance(error, PermissionError) and free > _LITTLE:
+                raise
             reason = f"{error}, with {free} bytes free on its disk: make room"
             raise OSError(errno.EIO, reason, str(path)) from error
 

@@ -17,7 +17,7 @@ import xarray as xr
 from hopper import Hopper, __version__
 from hopper.assessment.radial import assess_radial
 from hopper.assessment.stability import assess_stability
-from hopper.errors import ConvergenceError
+from hopper.errors import ConvergenceError, not_resolved_because
 from hopper_cli import commands, text
 from hopper_cli.main import EXAMPLES, main
 
@@ -589,9 +589,15 @@ def test_numbers_in_a_refusal_differ(run, answer):
     assert len(numbers) == len(set(numbers)) == 2
 
 
-def test_advice_fits_the_cause(run):
+def test_advice_fits_the_cause(run, monkeypatch):
+    def fail(*_):
+        raise ConvergenceError(f"not resolved; {not_resolved_because(0.0)}")
+
+    monkeypatch.setattr("hopper_cli.commands.assess_neutral", fail)
     _, _, err = run("neutral --geometry cone --half-angle 89 --phi 0")
+    assert is_one_error(err, "take another one")
     assert "lower the wall friction" not in err
+    assert "lower the wall friction" in not_resolved_because(0.1)
 
 
 @pytest.mark.parametrize(

@@ -39,6 +39,7 @@ def sound(built):
     return found
 
 
+@pytest.mark.soak
 def test_killed_at_random_moments(built, fresh):
     expected = sound(built)
     at_work = killed_at_random(fresh, expected, SHORT, random.Random(SEED), *SOME)
@@ -77,6 +78,7 @@ def test_killed_at_many_random_moments(built, copy_workflow, tmp_path):
     )  # fmt: skip
 
 
+@pytest.mark.soak
 def test_one_job_killed(built, fresh):
     with started(fresh, *SOME) as process:
         wait_for(lambda: bool(jobs_of(process)))

@@ -133,6 +133,7 @@ def test_a_bad_configuration_of_a_module_is_named(fresh, other):
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.soak
 @pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed")
 def test_another_workflow_uses_a_tag_on_github(other, tmp_path, monkeypatch):
     clone = copy(tmp_path / "github/somebody/hopper").path

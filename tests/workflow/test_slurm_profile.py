@@ -25,7 +25,8 @@ def test_profile_and_document_are_those_of_the_table():
 
 
 def test_every_rule_has_a_request_and_no_other_has():
-    blocks = dict(re.findall(r"^rule (\w+):\n(.*?)(?=^rule |\Z)", RULES, re.MULTILINE | re.DOTALL))
+    block = r"^(?:use rule \w+ as|rule) (\w+)(?: with)?:\n(.*?)(?=^(?:use )?rule |\Z)"
+    blocks = dict(re.findall(block, RULES, re.MULTILINE | re.DOTALL))
     by_size = {name for name, block in blocks.items() if f'asks("{name}"' in block}
     fixed = set(yaml.safe_load(measured.PROFILE.read_text(encoding="utf-8"))["set-resources"])
     assert by_size == set(measured.OF_MAPS)
