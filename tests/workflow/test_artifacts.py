@@ -64,6 +64,7 @@ def build_elsewhere(workflow, *targets):
     workflow.build("--cores", "1", *targets, TZ="Asia/Tokyo", LC_ALL="C")
 
 
+@pytest.mark.soak
 def test_some_artifacts_and_figures_are_identical_in_another_place(built, fresh):
     targets = {
         "figures/fig_4_1.pdf", "figures/fig_4_2.png", "figures/fig_jenike.png",
@@ -89,6 +90,7 @@ def test_artifacts_and_figures_are_identical_in_another_place(built, fresh):
     )
 
 
+@pytest.mark.soak
 def test_the_number_of_chunks_does_not_change_the_map(built, rebuilt):
     path, chunks = "results/map/cone_10.nc", [1, 7]
     found = {artifacts.checksum(built.path / path)}

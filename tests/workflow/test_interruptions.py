@@ -95,6 +95,7 @@ def test_one_job_killed(built, fresh):
            {"jobs killed": 1, **compared})  # fmt: skip
 
 
+@pytest.mark.soak
 def test_two_runs_at_once(built, fresh):
     with started(fresh, *SOME) as process:
         wait_for(lambda: bool(jobs_of(process)))

@@ -37,6 +37,7 @@ def build(workflow, processor, *targets):
     )
 
 
+@pytest.mark.soak
 def test_an_old_processor_agrees_within_the_tolerances(built, fresh):
     build(fresh, "Prescott", *SOME)
     changed = 0
