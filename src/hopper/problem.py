@@ -10,9 +10,7 @@ from hopper.arguments import checked
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.errors import InvalidParameterError
-from hopper.values import is_real as is_real
-from hopper.values import real_row, shown
-from hopper.values import require_angle as require_angle
+from hopper.values import real_row, require_angle, shown
 from hopper.yield_conditions import MOHR_COULOMB, VON_MISES, YieldCondition
 
 Geometry = Literal["wedge", "cone"]

@@ -159,7 +159,9 @@ def _with_errors(
     modes = {
         parity: _with_fields(solution, parity, found) for parity, found in result.modes.items()
     }
-    return result, modes, {name: _supremum(result, found) for name, found in modes.items()}
+    # The line's own estimate covers the fields.
+    suprema = {name: Quantity(*found.supremum(result.line)) for name, found in modes.items()}
+    return result, modes, suprema
 
 
 def _largest(suprema: dict[Parity, Quantity]) -> Quantity:
@@ -177,14 +179,6 @@ def _with_fields(solution: RadialSolution, parity: Parity, found: Modes) -> Mode
     before = followed(solution)
     share = propagated(solution, lambda shifted: np.abs(followed(shifted) - before))
     return Modes(modes, found.errors + share)
-
-
-def _supremum(result: LinearStability, modes: Modes) -> Quantity:
-    """Return the larger of line and highest mode; the line's own estimate covers the fields."""
-    highest = float(modes.eigenvalues[modes.highest].real)
-    if highest > result.line.abscissa:
-        return Quantity(highest, float(modes.errors[modes.highest]))
-    return Quantity(result.line.abscissa, result.line.error_estimate)
 
 
 def _resolved_modes(solution: RadialSolution, low: Modes) -> Modes:

@@ -12,7 +12,7 @@ import numpy as np
 
 from hopper.arguments import checked
 from hopper.errors import ConvergenceError, InvalidParameterError
-from hopper.problem import Geometry, Hopper, as_geometry, require_angle
+from hopper.problem import Geometry, Hopper, as_geometry
 from hopper.radial.collocation import Closure, Member
 from hopper.radial.friction_limit import fold_near
 from hopper.radial.members import physical_member
@@ -26,6 +26,7 @@ from hopper.stability.modes import (
     parities_among,
     upper_eigenvalues,
 )
+from hopper.values import require_angle
 
 # Half-grid points and low modes for what else is neutral at a fold.
 _FOLD_SIZE, _FOLD_MODES = 54, 5

@@ -19,9 +19,10 @@ from hopper.errors import (
     InvalidParameterError,
     NoRadialSolutionError,
 )
-from hopper.problem import Geometry, require_angle
+from hopper.problem import Geometry
 from hopper.radial.friction_limit import End, friction_limit
 from hopper.stability.modes import Disturbances, LinearStability
+from hopper.values import require_angle
 
 IntervalEnd = Literal["neutral", End, "stress_not_positive", "not_converged", "steepest_looked_at"]
 INTERVAL_ENDS: tuple[IntervalEnd, ...] = (

@@ -9,7 +9,7 @@ from hopper.arguments import RealRow, checked
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.errors import ConvergenceError, InvalidParameterError
-from hopper.problem import Hopper, require_angle
+from hopper.problem import Hopper
 from hopper.radial.collocation import Member
 from hopper.radial.family import family_from
 from hopper.radial.friction_limit import friction_limit_from
@@ -23,6 +23,7 @@ from hopper.stability.modes import (
     LinearStability,
     linear_stability,
 )
+from hopper.values import require_angle
 
 REGIONS = (
     "stable",

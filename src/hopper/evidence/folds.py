@@ -64,13 +64,13 @@ def fold_mode(hopper: Hopper) -> FoldMode | None:
     before, behind = (
         neighbour(fold, Closure("tau", fold.tau * exp(side * _BESIDE))) for side in (-1, 1)
     )
-    slopes = [beside.psi_wall_by_tau * beside.tau for beside in (before, behind)]
+    slopes = [beside.slope for beside in (before, behind)]
     modes = [upper_eigenvalues(solution_of(beside), _SIZE) for beside in (before, behind)]
     fine, coarse = (
         np.abs(upper_eigenvalues(solution_of(fold), size)).min() for size in (_SIZE, _COARSE_SIZE)
     )
     rate = max(float(np.abs(found).min()) for found in modes) / _BESIDE
-    left = _ROUNDING + abs(fold.psi_wall_by_tau * fold.tau)
+    left = _ROUNDING + abs(fold.slope)
     place = _ITERATION + left * 2 * _BESIDE / abs(slopes[1] - slopes[0])
     growing = [int(np.sum((found.imag == 0) & (found.real > 0))) for found in modes]
     error = float(abs(fine - coarse)) + rate * place

@@ -6,6 +6,7 @@ eigenvalue enters or leaves what two meshes agree on.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -66,6 +67,7 @@ def sign_changes(
         raise InvalidParameterError("places must be two or more increasing numbers")
     if not width > 0:
         raise InvalidParameterError(f"width = {width:g} must be positive")
+    function = cache(function)  # an evaluation is dear, and neighbourhoods share places
     values = np.array([function(float(x)) for x in grid])
     found: dict[float, Change] = {}
     for i in map(int, np.flatnonzero(_crossed(values))):

@@ -15,10 +15,11 @@ from hopper.arguments import Radians, Row, checked
 from hopper.arrays import Array, Complex
 from hopper.brief import brief
 from hopper.errors import InvalidParameterError
-from hopper.problem import Geometry, Hopper, require_angle
+from hopper.problem import Geometry, Hopper
 from hopper.spectral import chebyshev
 from hopper.stability import smooth_wall
 from hopper.stability.tilted import require_mohr_coulomb
+from hopper.values import require_angle
 
 # Kummer series of more take long, and lose all digits.
 _LARGEST_MU = 1e4

@@ -108,7 +108,7 @@ def _fold_on(hopper: Hopper, grid: Grid, start: Member) -> Member | None:
         member = newton(hopper, grid, Closure("tau", exp(log_tau)), u, _LAST_STEP)
         if member is None:
             return None
-        u, slope = member.u, member.psi_wall_by_tau * member.tau
+        u, slope = member.u, member.slope
         if abs(log_tau - before) > _FOLD_PROBE / 2:  # closer, their difference is rounding
             curvature = (slope - at_before) / (log_tau - before)
             before, at_before = log_tau, slope

@@ -13,7 +13,8 @@ import numpy as np
 from hopper.arguments import Radians, RealLike, checked
 from hopper.arrays import Array
 from hopper.errors import InvalidParameterError
-from hopper.problem import Hopper, as_angles, require_angle
+from hopper.problem import Hopper, as_angles
+from hopper.values import require_angle
 from hopper.yield_conditions import MOHR_COULOMB
 
 _LEAST_SIN_DELTA = 1 / 3

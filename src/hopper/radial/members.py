@@ -8,12 +8,13 @@ import numpy as np
 
 from hopper.arguments import Radians, checked
 from hopper.errors import ConvergenceError, NoRadialSolutionError
-from hopper.problem import Hopper, require_angle
+from hopper.problem import Hopper
 from hopper.radial.collocation import Closure, Member, newton
 from hopper.radial.family import family_from, neighbour, smooth_wall_member
 from hopper.radial.friction_limit import friction_limit
 from hopper.radial.pieces import Limit, Piece, first_piece, pieces
 from hopper.radial.refinement import refine, solve
+from hopper.values import require_angle
 from hopper.yield_conditions import MOHR_COULOMB
 
 # Least |d psi_w / d log(tau)| at which psi_w is solved for.

@@ -18,12 +18,13 @@ from hopper.errors import (
     NoRadialSolutionError,
     not_resolved_because,
 )
-from hopper.problem import Hopper, as_angles, require_angle
+from hopper.problem import Hopper, as_angles
 from hopper.radial.collocation import Member
 from hopper.radial.equations import normal_weight, slopes
 from hopper.radial.friction_limit import friction_limit
 from hopper.radial.grid import Grid
 from hopper.radial.members import member_with_tau, members_with_wall_angle, physical_member
+from hopper.values import require_angle
 
 Branch = Literal["physical", "second", "third"]
 _BRANCHES: tuple[Branch, ...] = get_args(Branch)
@@ -208,10 +209,6 @@ def solve_radial(
         If the fields cannot be resolved.
     """
     require_angle("friction_angle", friction_angle, zero_allowed=True)
-    if branch not in _BRANCHES:
-        raise InvalidParameterError(
-            f"branch = {branch!r} is unknown: use physical, second or third"
-        )
     if branch == "physical":
         member = _on_physical_branch(hopper, friction_angle, start)
         return RadialSolution(hopper, friction_angle, branch, member)

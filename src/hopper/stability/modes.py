@@ -17,7 +17,7 @@ import numpy as np
 from hopper.arguments import ComplexRow, checked
 from hopper.arrays import Array, Complex
 from hopper.brief import brief
-from hopper.errors import ConvergenceError, InvalidParameterError, not_resolved_because
+from hopper.errors import ConvergenceError, not_resolved_because
 from hopper.problem import Geometry
 from hopper.radial.solution import RadialSolution
 from hopper.stability.asymptotic_line import AsymptoticLine, asymptotic_line
@@ -61,6 +61,14 @@ class Modes:
     def highest(self) -> int:
         """Index of the mode with the largest real part."""
         return int(np.argmax(self.eigenvalues.real))
+
+    @checked
+    def supremum(self, line: AsymptoticLine) -> tuple[float, float]:
+        """Return the larger of the highest real part and the line's, with its error."""
+        value = float(self.eigenvalues[self.highest].real)
+        if value > line.abscissa:
+            return value, float(self.errors[self.highest])
+        return line.abscissa, line.error_estimate
 
     def _first(self, count: int, line: float) -> "Modes":
         """Return the first modes, up to one beyond ``count`` that exceeds them and the line."""
@@ -108,19 +116,13 @@ class LinearStability:
     @property
     def symmetric(self) -> tuple[float, float]:
         """Supremum of Re(lambda) for symmetric disturbances, and its error."""
-        return self._supremum("symmetric")
+        return self.modes["symmetric"].supremum(self.line)
 
     @property
     def asymmetric(self) -> tuple[float, float] | None:
         """The same for asymmetric disturbances, None where they were not looked at."""
-        return self._supremum("asymmetric") if "asymmetric" in self.modes else None
-
-    def _supremum(self, parity: Parity) -> tuple[float, float]:
-        modes = self.modes[parity]
-        value = float(modes.eigenvalues[modes.highest].real)
-        if value > self.line.abscissa:
-            return value, float(modes.errors[modes.highest])
-        return self.line.abscissa, self.line.error_estimate
+        found = self.modes.get("asymmetric")
+        return None if found is None else found.supremum(self.line)
 
     @property
     def stable(self) -> bool:
@@ -183,7 +185,7 @@ def linear_stability(
 
 
 @checked
-def parities_among(disturbances: str | None, geometry: Geometry) -> tuple[Parity, ...]:
+def parities_among(disturbances: Disturbances | None, geometry: Geometry) -> tuple[Parity, ...]:
     """Return the parities to look at: by default any of wedges, the symmetric one of cones.
 
     Raises
@@ -191,10 +193,6 @@ def parities_among(disturbances: str | None, geometry: Geometry) -> tuple[Parity
     InvalidParameterError
         If asymmetric disturbances of a cone are asked for, or it is neither "symmetric" nor "any".
     """
-    if disturbances not in (None, "symmetric", "any"):
-        raise InvalidParameterError(
-            f"disturbances = {disturbances!r} is unknown: use symmetric or any"
-        )
     if disturbances == "any":
         require_disturbance(geometry, "asymmetric")
     found = parities_of(geometry)

@@ -21,7 +21,8 @@ from scipy.special import hyp1f1, jn_zeros, lpmv
 from hopper.arguments import Radians, RealLike, RealRow, checked
 from hopper.arrays import Array, Complex
 from hopper.errors import InvalidParameterError
-from hopper.problem import Geometry, require_angle
+from hopper.problem import Geometry
+from hopper.values import require_angle
 
 ConeVariant = Literal["bessel", "kummer", "legendre"]
 CONE_VARIANTS: tuple[ConeVariant, ...] = ("bessel", "kummer", "legendre")
