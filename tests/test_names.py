@@ -147,11 +147,13 @@ def results():
     from hopper.evidence.printed import compare_linearised
     from hopper.evidence.sign_changes import sign_changes
     from hopper.evidence.smooth_operator import check_formula
+    from hopper.radial.branch import branch_up_to
     from hopper.radial.critical_point import CriticalPoint, LimitingSolution
     from hopper.radial.pieces import first_piece
     from hopper.spectral.sensitivity import kept_sensitivity
     from hopper.stability.convergence_filter import convergence_filter
     from hopper.stability.mesh_spectrum import mesh_spectrum
+    from hopper.stability.modes import stacked_starts
     from hopper.stability.paper_abscissa import paper_abscissa
     from hopper.stability.paper_frame import coefficients
     from hopper.stability.tilted import tilted_coefficients
@@ -192,6 +194,7 @@ def results():
         compare_linearised(solution, 3), check_formula(cone, 3, 12),
         Case("cone", "mohr-coulomb", 35, 10, Wall.of(0.1)), Wall.of(0.1),
         number("sigma_axis", "stress"), *rows(solution, [number("sigma_axis", "stress")]),
+        branch_up_to(cone, 0.1), *stacked_starts([solution], ["symmetric"]),
         piece, piece.end, solution.member.grid.map, form.panels[0],
         *sign_changes(np.cos, [1.0, 2.0], 0.1),
     ]  # fmt: skip

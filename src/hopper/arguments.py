@@ -48,19 +48,31 @@ _LARGEST_COUNT = 2**31
 
 def checked(function: _Function) -> _Function:
     """Hold the arguments of a function to their annotations."""
-    hints = function.__annotations__
-    checks = {name: _check_of(hints.get(name, Any)) for name in signature(function).parameters}
-    in_order = tuple(checks.items())
+    hints = {
+        name: function.__annotations__.get(name, Any) for name in signature(function).parameters
+    }
+    checks = {name: _check_of(hint) for name, hint in hints.items()}
+    # Values of the very class asked for need no more than that: it is most of them.
+    in_order = tuple((name, _class_of(hints[name]), check) for name, check in checks.items())
 
     @wraps(function)
     def call(*values: Any, **named: Any) -> Any:
         # Too many arguments, or unknown ones, are left to the function's own complaint.
-        given = [check(name, value) for (name, check), value in zip(in_order, values, strict=False)]
+        given = [
+            value if type(value) is kind else check(name, value)
+            for (name, kind, check), value in zip(in_order, values, strict=False)
+        ]
         for name in named.keys() & checks.keys():
             named[name] = checks[name](name, named[name])
         return function(*given, *values[len(given) :], **named)
 
     return cast(_Function, call)
+
+
+def _class_of(hint: Any) -> type | None:
+    """Return the class whose objects an annotation takes as they are, None if there is none."""
+    plain = hint in (str, bool) or hint not in _PLAIN
+    return hint if plain and isclass(hint) and get_origin(hint) is None else None
 
 
 def _check_of(hint: Any) -> _Check:

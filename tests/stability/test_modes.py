@@ -9,13 +9,21 @@ import pytest
 from hopper import Hopper, HopperError, linear_stability, solve_radial
 from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.radial.collocation import Closure, newton
+from hopper.radial.fields import stacked_fields
 from hopper.radial.grid import half_grid
 from hopper.stability import smooth_wall
 from hopper.stability.asymptotic_line import asymptotic_line
 from hopper.stability.collocation import parities_of
 from hopper.stability.convergence_filter import convergence_filter
 from hopper.stability.mesh_spectrum import mesh_spectrum
-from hopper.stability.modes import LinearStability, Modes, partner_changes, upper_eigenvalues
+from hopper.stability.modes import (
+    LinearStability,
+    Modes,
+    parities_among,
+    partner_changes,
+    stacked_starts,
+    upper_eigenvalues,
+)
 from hopper.yield_conditions import VON_MISES
 from tests.stability.tilted_chebyshev import staggered_modes
 from tests.stability.tilted_data import ELSEWHERE, ELSEWHERE_NAMES, as_complex, name, read
@@ -399,3 +407,39 @@ def test_stability_goes_smoothly_through_the_tangency(geometry):
         fit = np.polyfit(angles - tangency, values, 3)
         assert np.abs(np.polyval(fit, angles - tangency) - values).max() < 1e-6
     assert found[0].line.spacing > found[4].line.spacing / 2 > pi / 4
+
+
+def test_solutions_together_are_judged_as_one_by_one():
+    """On different grids, with and without layers, of both parities."""
+    for geometry in ("cone", "wedge"):
+        hopper = Hopper(geometry, radians(40), radians(30))
+        solutions = [solve_radial(hopper, radians(phi)) for phi in (0, 3, 9, 14, 17.5)]
+        assert len({solution.member.grid.size for solution in solutions}) > 1
+        starts = stacked_starts(solutions, parities_among(None, geometry))
+        for solution, start in zip(solutions, starts, strict=True):
+            together = linear_stability(solution, start=start)
+            single = linear_stability(solution)
+            assert together.modes.keys() == single.modes.keys()
+            for parity, modes in together.modes.items():
+                other = single.modes[parity]
+                error = modes.errors + other.errors
+                assert np.all(np.abs(modes.eigenvalues - other.eigenvalues) <= error)
+            assert abs(together.line.abscissa - single.line.abscissa) <= (
+                together.line.error_estimate + single.line.error_estimate
+            )
+
+
+def test_solutions_of_several_hoppers_do_not_go_together():
+    solutions = [radial("wedge", 35, 10), radial("wedge", 36, 10)]
+    with pytest.raises(InvalidParameterError, match="not of one hopper"):
+        stacked_starts(solutions, ("symmetric",))
+    with pytest.raises(InvalidParameterError, match="empty"):
+        stacked_fields([], [])
+
+
+def test_line_of_a_coarse_grid_is_refined_where_it_does_not_suffice():
+    solution = solve_radial(Hopper("wedge", radians(20), radians(30)), radians(19.9))
+    (start,) = stacked_starts([solution], ("symmetric",))
+    line = asymptotic_line(solution, start.line)
+    assert start.line.tail > 1e-13 >= line.tail or line.error_estimate < start.line.error_estimate
+    assert abs(start.line.abscissa - line.abscissa) <= start.line.error_estimate

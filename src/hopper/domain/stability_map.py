@@ -8,11 +8,10 @@ from numpy.typing import NDArray
 from hopper.arguments import RealRow, checked
 from hopper.arrays import Array
 from hopper.brief import brief
-from hopper.errors import ConvergenceError, InvalidParameterError
+from hopper.errors import ConvergenceError, InvalidParameterError, NoRadialSolutionError
 from hopper.problem import Hopper
+from hopper.radial.branch import branch_up_to, members_on
 from hopper.radial.collocation import Member
-from hopper.radial.family import family_from
-from hopper.radial.friction_limit import friction_limit_from
 from hopper.radial.members import physical_member
 from hopper.radial.solution import solution_of
 from hopper.stability.collocation import PARITIES, Parity
@@ -22,6 +21,8 @@ from hopper.stability.modes import (
     Governor,
     LinearStability,
     linear_stability,
+    parities_among,
+    stacked_starts,
 )
 from hopper.values import require_angle
 
@@ -39,6 +40,8 @@ PARITY = ("none", *PARITIES)
 _STABLE, _SYMMETRIC, _UNSTABLE, _NO_SOLUTION, _NO_WALL, _NON_POSITIVE, _NOT_CONVERGED = range(7)
 # Relative errors of the governing mode, and of the others, which must only be seen to lie below.
 _TOLERANCE, _OTHERS = 1e-9, 1e-5
+# Errors of the radial fields that leave that.
+_FIELDS = 1e-11
 
 
 @dataclass(frozen=True)
@@ -84,8 +87,7 @@ def sweep_friction(
 ) -> Sweep:
     """Evaluate a hopper at increasing wall friction angles (radians).
 
-    Neighbours start each other's iteration. ``disturbances`` as in
-    :func:`hopper.stability.modes.linear_stability`.
+    ``disturbances`` as in :func:`hopper.stability.modes.linear_stability`.
 
     Raises
     ------
@@ -101,20 +103,15 @@ def sweep_friction(
     region[angles > hopper.material.largest_friction_angle(hopper.delta)] = _NO_WALL
     values = np.full((6, angles.size), np.nan)
     codes = np.zeros((2, angles.size), dtype=np.int8)
-    last: Member | None = None
-    for i in np.flatnonzero(region == _NO_SOLUTION):
+    allowed = np.flatnonzero(region == _NO_SOLUTION)
+    members, region[allowed] = _members(hopper, angles[allowed])
+    solved = {i: solution_of(m) for i, m in zip(allowed, members, strict=True) if m and m.tau > 0}
+    starts = stacked_starts(list(solved.values()), parities_among(disturbances, hopper.geometry))
+    for (i, solution), start in zip(solved.items(), starts, strict=True):
         try:
-            member = physical_member(hopper, float(angles[i]), last)
-            if member is None:
-                rest = (np.arange(angles.size) >= i) & (region == _NO_SOLUTION)
-                region[rest & (angles <= _limit(last, angles[-1]))] = _NOT_CONVERGED
-                break
-            last = member
-            if member.tau <= 0:
-                region[i] = _NON_POSITIVE
-                continue
-            solution = solution_of(member)
-            result = linear_stability(solution, disturbances, tolerance=_TOLERANCE, others=_OTHERS)
+            result = linear_stability(
+                solution, disturbances, tolerance=_TOLERANCE, others=_OTHERS, start=start
+            )
         except ConvergenceError:
             region[i] = _NOT_CONVERGED
         else:
@@ -123,24 +120,31 @@ def sweep_friction(
     return Sweep(angles, region, *values, *codes)
 
 
-def _limit(member: Member | None, highest: float) -> float:
-    """Return the largest friction angle with a solution, or ``highest`` if it is no smaller.
-
-    That of ``member`` where it is not resolved.
-    """
-    if member is None:
-        return -np.inf
-    law, delta = member.hopper.material, member.hopper.delta
-    for following in family_from(member):
-        if following.psi_wall_by_tau <= 0:
-            break
-        member = following
-        if law.friction_angle(delta, member.psi_wall) >= highest:
-            return highest
+def _members(hopper: Hopper, angles: Array) -> tuple[list[Member | None], NDArray[np.int8]]:
+    """Return the members at wall frictions, None where none is found, and their regions."""
+    region = np.full(angles.size, _NO_SOLUTION, dtype=np.int8)
+    psi_walls = np.array([hopper.material.wall_angle(hopper.delta, phi) for phi in angles])
     try:
-        return friction_limit_from(member).friction_angle
-    except ConvergenceError:
-        return solution_of(member).friction_angle
+        branch = branch_up_to(hopper, float(psi_walls.max(initial=0.0)))
+    except NoRadialSolutionError:
+        return [None] * angles.size, region
+    members = members_on(branch, psi_walls, _FIELDS)
+    last: Member | None = None
+    for i, angle in enumerate(angles):
+        if branch.ends_before(float(psi_walls[i])):
+            break
+        region[i] = _NOT_CONVERGED
+        try:
+            members[i] = member = members[i] or physical_member(hopper, float(angle), last)
+        except ConvergenceError:
+            continue
+        if member is None:
+            region[i] = _NO_SOLUTION
+            break
+        last = member
+        if member.tau <= 0:
+            region[i] = _NON_POSITIVE
+    return members, region
 
 
 def _row(result: LinearStability) -> tuple[int, tuple[float, ...], tuple[int, int]]:

@@ -11,17 +11,16 @@ All radial solutions of a hopper form a curve with one member for each tau.
 from dataclasses import dataclass, replace
 from math import inf, isfinite
 from sys import float_info
-from typing import Literal
 
 import numpy as np
 
-from hopper.arguments import checked
+from hopper.arguments import Row, checked
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.problem import Hopper
-from hopper.radial.equations import normal_weight, residual_and_jacobian, slopes
+from hopper.radial.equations import slopes
 from hopper.radial.grid import Grid, transfer
-from hopper.radial.steps import size_of, solved_by
+from hopper.radial.steps import CLOSED, Unknown, closed_system, normal_weight, size_of, solved_by
 from hopper.spectral import chebyshev
 
 _NEWTON_STEPS = 25
@@ -35,7 +34,7 @@ _ROUGHEST = 1e-4
 class Closure:
     """What selects one member of the family: psi at the wall (radians), or tau."""
 
-    unknown: Literal["psi_wall", "tau"]
+    unknown: Unknown
     value: float
 
 
@@ -143,47 +142,36 @@ class Member:
     @checked
     def on(self, grid: Grid) -> Array:
         """Return ``u`` interpolated to another grid, stretched where the half angles differ."""
-        if grid is self.grid:
-            return self.u
-        even, odd = transfer(self.grid, grid, "even"), transfer(self.grid, grid, "odd")
-        return np.concatenate([even @ self.log_ratio, odd @ self.psi, self.u[-1:]])
+        return moved(self.u, self.grid, grid)
 
 
 @checked
-def tail(log_ratio: Array, psi: Array) -> float:
+def moved(u: Array, old: Grid, new: Grid) -> Array:
+    """Return unknowns, shape (..., 2 m + 1), interpolated from one grid to another."""
+    if old is new:
+        return u
+    m = old.size
+    even, odd = transfer(old, new, "even"), transfer(old, new, "odd")
+    return np.concatenate([u[..., :m] @ even.T, u[..., m:-1] @ odd.T, u[..., -1:]], axis=-1)
+
+
+@checked
+def tail(log_ratio: Row, psi: Row) -> float:
     """Return the largest of the last Chebyshev coefficients: what their grid does not resolve."""
-    even = chebyshev.half_coefficients(log_ratio, "even")[-2:]
-    odd = chebyshev.half_coefficients(psi, "odd")[-2:]
+    even = chebyshev.last_half_coefficients(log_ratio.size, "even", 2) @ log_ratio
+    odd = chebyshev.last_half_coefficients(psi.size, "odd", 2) @ psi
     return float(max(np.abs(even).max(), np.abs(odd).max()))
-
-
-@checked
-def closed_system(hopper: Hopper, grid: Grid, closure: Closure, u: Array) -> tuple[Array, Array]:
-    """Return the residual of the equations with the closure, and its derivative by u."""
-    residual, jacobian = residual_and_jacobian(hopper, grid, u)
-    # log(sigma / sigma_0) = 0 on the axis replaces the angular equation at the wall: that equation
-    # is odd with one degree less, so one of its rows is redundant.
-    residual[-2] = grid.axis_row @ u[: grid.size]
-    jacobian[-2] = 0.0
-    jacobian[-2, : grid.size] = grid.axis_row
-    column = _column(closure)
-    residual[-1] = u[column] - closure.value
-    jacobian[-1, column] = 1.0
-    return residual, jacobian
 
 
 def _newton_step(hopper: Hopper, grid: Grid, closure: Closure, u: Array) -> tuple[Array, Array]:
     """Return the Newton correction, and the derivative of u by the closure's value."""
-    residual, jacobian = closed_system(hopper, grid, closure, u)
+    residual, jacobian = closed_system(hopper, grid, closure.unknown, u)
+    residual[-1] = u[CLOSED[closure.unknown]] - closure.value
     right = np.zeros((u.size, 2), order="F")
     right[:, 0] = -residual
     right[-1, 1] = 1.0
     solved = solved_by(jacobian, right)
     return solved[:, 0], solved[:, 1]
-
-
-def _column(closure: Closure) -> int:
-    return -2 if closure.unknown == "psi_wall" else -1
 
 
 @checked
@@ -195,7 +183,7 @@ def newton(
     Convergence is quadratic: after a step of size ``last_step`` the error is of the order of its
     square, by default of rounding size. The member's ``error`` is the size of the first step.
     """
-    column = _column(closure)
+    column = CLOSED[closure.unknown]
     first = size = 0.0
     with np.errstate(over="ignore", invalid="ignore"):
         for iteration in range(_NEWTON_STEPS):
@@ -231,6 +219,6 @@ def crude_start(hopper: Hopper, grid: Grid, psi_wall: float) -> Array:
 @checked
 def predicted(start: Member, closure: Closure) -> Member:
     """Move along the tangent to where the closure holds to first order."""
-    column = _column(closure)
+    column = CLOSED[closure.unknown]
     step = (closure.value - start.u[column]) / start.tangent[column]
     return replace(start, u=start.u + step * start.tangent) if isfinite(step) else start

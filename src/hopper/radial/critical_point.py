@@ -18,8 +18,9 @@ from hopper.brief import brief
 from hopper.errors import ConvergenceError
 from hopper.problem import Hopper
 from hopper.radial.collocation import Member, tail
-from hopper.radial.equations import flow, residual_and_jacobian, slopes
+from hopper.radial.equations import flow, slopes
 from hopper.radial.grid import Grid, Map, layer_clustering, mapped_grid, transfer
+from hopper.radial.steps import residual_and_jacobian
 
 _SIZES = (54, 36)
 _NEWTON_STEPS = 15

@@ -21,7 +21,7 @@ from hopper.radial.grid import half_grid
 from hopper.radial.refinement import SIZES, TOLERANCE, fitted, grid_for, refine
 
 SIZE = 36
-_FIRST_STEP = 0.05
+_FIRST_STEP = 0.15
 # Arc of (psi_w, log tau), at most; more where the layer at the axis is thin, tau theta_w > 20, and
 # the solution only moves with it.
 _LARGEST_STEP, _LAYER_STEP, _LAYER = 0.2, 0.4, 20.0
@@ -41,7 +41,7 @@ _THINNEST_LAYER = 3e5
 
 
 @checked
-def smooth_wall_member(hopper: Hopper) -> Member:
+def smooth_wall_member(hopper: Hopper, size: int = SIZE) -> Member:
     """Return the member with psi_w = 0, on a coarse grid; its tau is negative for small delta.
 
     Raises
@@ -54,14 +54,14 @@ def smooth_wall_member(hopper: Hopper) -> Member:
     narrowest = min(angle, radians(1))
     while member is None and angle >= narrowest:
         narrow = replace(hopper, half_angle=angle)
-        grid = half_grid(SIZE, angle)
+        grid = half_grid(size, angle)
         member = newton(narrow, grid, smooth, crude_start(narrow, grid, 0.0))
         angle /= 2
     step = 0.1
     while member is not None and member.hopper.half_angle < hopper.half_angle:
         angle = min(hopper.half_angle, member.hopper.half_angle + step)
         wider = replace(hopper, half_angle=angle)
-        following = newton(wider, half_grid(SIZE, angle), smooth, member.u)
+        following = newton(wider, half_grid(size, angle), smooth, member.u)
         if following is None:
             step /= 2
             if step < 1e-3:

@@ -90,16 +90,17 @@ def fold_near(hopper: Hopper, start: Member) -> Member | None:
 
     ``start`` may be of a hopper close to this one.
     """
-    near = _fold_on(hopper, half_grid(SIZE, hopper.half_angle, start.grid.map.clustering), start)
+    near = fold_on(hopper, half_grid(SIZE, hopper.half_angle, start.grid.map.clustering), start)
     if near is None:
         return None
     resolved = neighbour(near, Closure("tau", near.tau))
     # Where the stress on the axis is small the mesh moves the fold.
-    fold = _fold_on(hopper, resolved.grid, resolved)
+    fold = fold_on(hopper, resolved.grid, resolved)
     return fold and neighbour(fold, Closure("tau", fold.tau))
 
 
-def _fold_on(hopper: Hopper, grid: Grid, start: Member) -> Member | None:
+@checked
+def fold_on(hopper: Hopper, grid: Grid, start: Member) -> Member | None:
     """Return the fold on one grid by the secant method in log(tau), None if that fails."""
     u, log_tau = start.on(grid), log(start.tau)
     before, at_before, curvature = log_tau + _FOLD_PROBE, np.nan, np.nan

@@ -230,10 +230,10 @@ def wall_bend(clustering: float, excess: Positive) -> float:
 def layer_clustering(hopper: Hopper, tau: float) -> float:
     """Return the clustering that resolves the layer at the apex, of width 1 / tau.
 
-    In steps of a half, so that grids can be kept. The factors are those with which modes of cones
+    A whole number, so that grids can be kept. The factors are those with which modes of cones
     need the fewest points, measured for tau theta_w from 0.3 to 30; wedges do without up to 10.
     """
     width = tau * hopper.half_angle
     if not hopper.curvature and width < _WEDGE_LAYER:
         return 0.0
-    return 0.5 * round(2 * max(0.0, 1.3 * asinh(width / 3)))
+    return float(round(max(0.0, 1.3 * asinh(width / 3))))

@@ -20,6 +20,8 @@ from hopper.yield_conditions import MOHR_COULOMB
 # Least |d psi_w / d log(tau)| at which psi_w is solved for.
 _FLAT = 1e-2
 _ROOT_STEPS = 40
+# Relative distance from the largest friction of a material that is none.
+_ROUNDING = 4 * float(np.finfo(float).eps)
 # Largest error, and tau theta_w, of a member that a crude start leads to: else its place on the
 # family is looked up.
 _ACCURATE, _THICK_LAYER = 1e-9, 20.0
@@ -200,6 +202,9 @@ def physical_member(
         If the fields cannot be resolved.
     """
     psi_wall = hopper.material.wall_angle(hopper.delta, friction_angle)
+    largest = hopper.material.largest_friction_angle(hopper.delta)
+    if friction_angle >= largest * (1 - _ROUNDING):
+        return None
     closure = Closure("psi_wall", psi_wall)
     for guess in (start, None) if start else (None,):
         member = solve(hopper, closure, guess)

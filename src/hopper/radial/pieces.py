@@ -128,7 +128,7 @@ def pieces_from(member: Member, start: Limit | None = None) -> Iterator[Piece]:
         members.append(following)
         if len(members) < 2:
             continue
-        if _turned(following, rising) and (turn := _extremum(members[-2], following, rising)):
+        if turned(following, rising) and (turn := _extremum(members[-2], following, rising)):
             yield Piece(rising, tuple(members[:-1]), start, turn)
             rising, start, members = not rising, turn, [following]
         elif has_mass_flow_limit(member.hopper):
@@ -144,7 +144,9 @@ def pieces_from(member: Member, start: Limit | None = None) -> Iterator[Piece]:
     yield Piece(rising, tuple(members), start, _end(members))
 
 
-def _turned(member: Member, rising: bool) -> bool:
+@checked
+def turned(member: Member, rising: bool) -> bool:
+    """Whether psi_w falls along the family at a member where it rose, or the reverse."""
     # Where psi_w is the parameter it moves as it should; the sign of the slope may be rounding.
     return member.closure.unknown == "tau" and (member.psi_wall_by_tau > 0) is not rising
 

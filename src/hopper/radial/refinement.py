@@ -12,17 +12,15 @@ import numpy as np
 from hopper.arguments import checked
 from hopper.errors import ConvergenceError, not_resolved_because
 from hopper.problem import Hopper
-from hopper.radial.collocation import (
-    FAR,
-    Closure,
-    Member,
-    closed_system,
-    crude_start,
-    newton,
-    predicted,
-)
+from hopper.radial.collocation import FAR, Closure, Member, crude_start, newton, predicted
 from hopper.radial.grid import Grid, Map, half_grid, layer_clustering, mapped_grid, wall_bend
-from hopper.radial.steps import size_of, solved_by
+from hopper.radial.steps import (
+    closed_system,
+    extrapolated,
+    rounding_of_rows,
+    rounding_of_unknowns,
+    solved_by,
+)
 
 # Half-grid sizes; a solution on one is confirmed on the next.
 SIZES = (12, 16, 24, 36, 54, 80, 120, 180, 270)
@@ -30,10 +28,6 @@ SIZES = (12, 16, 24, 36, 54, 80, 120, 180, 270)
 _SHARP_STEP = 1e-10
 TOLERANCE = 1e-12
 _ACCEPTABLE = 1e-6
-# Factor on the error that geometric convergence predicts; near the singular angle it is slower.
-_SAFETY = 100
-# Sets of rounding errors, and factor on the largest effect of one.
-_ROUNDINGS, _MAGNIFIED = 4, 2
 # Distance over theta_w, from the wall or in width, from which on where psi is close to singular has
 # a grid of its own: farther away plain ones resolve it.
 _BENT = 0.05
@@ -63,7 +57,7 @@ def refine(member: Member, tolerance: float = TOLERANCE) -> Member:
         stagnant = bool(observed) and observed[-1][1] / 2 < error < 1e-9
         observed.append((member.grid.size, error))
         if not stagnant:
-            error = min(error, _extrapolated(observed, finer.grid))
+            error = min(error, extrapolated(observed, finer.grid))
         member = replace(finer, error=error + least)
         if error < max(tolerance, least) or stagnant:
             return member
@@ -75,40 +69,23 @@ def refine(member: Member, tolerance: float = TOLERANCE) -> Member:
     )
 
 
-def _extrapolated(observed: list[tuple[int, float]], grid: Grid) -> float:
-    """Return the error on a grid from those on coarser ones, which decay as C q^size.
-
-    Of the last error alone, C taken as 1, or from its ratio to the one before: the larger. On bent
-    grids what is left of the square root decays as size^-3, measured.
-    """
-    (coarse, error), size = observed[-1], grid.size
-    guess = _SAFETY * error ** (size / coarse)
-    if grid.map.bend:
-        guess = max(guess, error * (coarse / size) ** 3)
-    if len(observed) > 1:
-        coarser, before = observed[-2]
-        guess = max(guess, 3 * error * (error / before) ** ((size - coarse) / (coarse - coarser)))
-    return float(guess)
+@checked
+def rounding(member: Member) -> float:
+    """Return what rounding makes of u: that of the closure and of the equations, magnified."""
+    hopper, u = member.hopper, member.u
+    _, jacobian = closed_system(hopper, member.grid, member.closure.unknown, u)
+    moved = solved_by(jacobian, np.asfortranarray(rounding_of_rows(jacobian, u)))
+    return float(rounding_of_unknowns(moved[None], u[None])[0]) + rounding_of_closure(member)
 
 
 @checked
-def rounding(member: Member) -> float:
-    """Return what rounding makes of u: that of the closure and of the equations, magnified.
-
-    Products of the equations' derivatives and u are rounded independently, so that their squares
-    add up; what comes of it is estimated from a few sets of signs.
-    """
-    hopper, u, eps = member.hopper, member.u, float(np.finfo(float).eps)
-    _, jacobian = closed_system(hopper, member.grid, member.closure, u)
-    size = eps * np.sqrt(np.square(jacobian * u).sum(axis=1))
-    signs = np.random.default_rng(0).choice([-1.0, 1.0], (u.size, _ROUNDINGS))
-    moved = solved_by(jacobian, np.asfortranarray(size[:, None] * signs))
-    # Fields and stresses computed from u are rounded a few times more.
-    error = 4 * eps + _MAGNIFIED * max(size_of(column, u) for column in moved.T)
-    if member.closure.unknown == "psi_wall":
-        of_wall = hopper.material.wall_angle_rounding(hopper.delta, member.psi_wall)
-        error += of_wall * member.steepness
-    return error
+def rounding_of_closure(member: Member) -> float:
+    """Return what rounding of psi_w makes of u, where it is given."""
+    if member.closure.unknown == "tau":
+        return 0.0
+    hopper = member.hopper
+    of_wall = hopper.material.wall_angle_rounding(hopper.delta, member.psi_wall)
+    return of_wall * member.steepness
 
 
 @checked

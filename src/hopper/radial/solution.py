@@ -20,10 +20,12 @@ from hopper.errors import (
 )
 from hopper.problem import Hopper, as_angles
 from hopper.radial.collocation import Member
-from hopper.radial.equations import normal_weight, slopes
+from hopper.radial.equations import slopes
+from hopper.radial.fields import stacked_fields
 from hopper.radial.friction_limit import friction_limit
 from hopper.radial.grid import Grid
 from hopper.radial.members import member_with_tau, members_with_wall_angle, physical_member
+from hopper.radial.steps import normal_weight
 from hopper.values import require_angle
 
 Branch = Literal["physical", "second", "third"]
@@ -128,13 +130,8 @@ class RadialSolution:
     @checked
     def fields_on(self, grids: Sequence[Grid]) -> tuple[Array, Array, Array, Array]:
         """Return :meth:`fields` at the points of half grids, one after the other, shape (n,)."""
-        if not grids:
-            raise InvalidParameterError("grids is empty: give at least one grid")
-        on = [(grid.size, self.member.on(grid)) for grid in grids]
-        theta = np.concatenate([grid.theta for grid in grids])
-        log_ratio = np.concatenate([u[:m] for m, u in on])
-        psi = np.concatenate([u[m:-1] for m, u in on])
-        return self._with_slopes(theta, log_ratio, psi)
+        sigma, psi, dsigma, dpsi = stacked_fields([self.member], grids)
+        return sigma[0], psi[0], dsigma[0], dpsi[0]
 
     def _with_slopes(
         self, theta: Array, log_ratio: Array, psi: Array

@@ -234,6 +234,22 @@ def half_coefficients(values: _Values, parity: Parity) -> Array:
 
 
 @checked
+@lru_cache(maxsize=128)
+def last_half_coefficients(m: int, parity: Parity, count: int) -> Array:
+    """Return the matrix, shape (count, m), from half-grid values to the last coefficients.
+
+    Raises
+    ------
+    InvalidParameterError
+        As :func:`half_nodes`, and if the parity is unknown or count is not from 1 to m.
+    """
+    _full_size(m, centred=False)
+    if not 1 <= count <= m:
+        raise InvalidParameterError(f"count = {count} is out of range: give 1 to m = {m}")
+    return _frozen(half_coefficients(np.eye(m), parity)[-count:].copy())
+
+
+@checked
 def integrate_odd(values: Array) -> Array:
     """Return the integral from 0 of an odd function on the half grid; even, shape (m,).
 

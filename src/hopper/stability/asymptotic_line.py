@@ -9,25 +9,28 @@ the limit of Re(lambda) for |Im(lambda)| -> infinity; modes of one parity are sp
 Im(lambda). Both parities have the same line.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from math import cos, pi
+from math import cos, inf, pi
 
 import numpy as np
 
 from hopper.arguments import checked
-from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.errors import ConvergenceError, not_resolved_because
 from hopper.radial.grid import Grid
 from hopper.radial.solution import RadialSolution
 from hopper.spectral import chebyshev
 from hopper.stability.collocation import mode_grid
-from hopper.stability.tilted import TiltedCoefficients, on_grids
+from hopper.stability.tilted import TiltedCoefficients, stacked_on_grids
 
-_SIZES = (36, 54, 80, 120, 180, 270, 400)
+# Half-grid points of the quadrature.
+LINE_SIZES = (36, 54, 80, 120, 180, 270, 400)
 _TOLERANCE = 1e-13
 _ACCEPTABLE = 1e-6
 _ROUNDING = 1e-13
+# Coefficients of the integrands that tell what the quadrature leaves.
+_LAST = 3
 
 
 @dataclass(frozen=True)
@@ -35,19 +38,21 @@ class AsymptoticLine:
     """Limit ``abscissa`` of Re(lambda) and ``spacing`` in Im(lambda) of modes of one parity.
 
     ``error_estimate`` is that of the abscissa: the decay of the integrand's Chebyshev
-    coefficients, the error of the radial solution, and rounding.
+    coefficients, the error of the radial solution, and rounding. ``tail`` is the first of them,
+    relative.
     """
 
     abscissa: float
     spacing: float
     error_estimate: float
+    tail: float
 
     __repr__ = brief("abscissa", "spacing", "error_estimate")
 
 
 @checked
 def asymptotic_line(
-    solution: RadialSolution, first: tuple[Grid, TiltedCoefficients] | None = None
+    solution: RadialSolution, first: AsymptoticLine | None = None, tolerance: float = _TOLERANCE
 ) -> AsymptoticLine:
     """Return the asymptotic line of a radial solution.
 
@@ -55,8 +60,10 @@ def asymptotic_line(
     ----------
     solution : RadialSolution
         Of a Mohr-Coulomb material.
-    first : pair, optional
-        A half grid off the axis with its coefficients, to try before finer ones.
+    first : AsymptoticLine, optional
+        Of the first of ``LINE_SIZES``, from :func:`lines_on`.
+    tolerance : float
+        What the quadrature may leave of the error, relative.
 
     Raises
     ------
@@ -65,40 +72,38 @@ def asymptotic_line(
     ConvergenceError
         If the quadrature does not reach 1e-6, relative; psi is too close to its singular value.
     """
-    line, tail = _by_quadrature(solution, *(first or _on_grid(solution, _SIZES[0])))
-    for size in _SIZES:
-        if tail < _TOLERANCE:
+    line = first
+    for size in LINE_SIZES[bool(first) :]:
+        if line and line.tail < tolerance:
             break
-        line, tail = _by_quadrature(solution, *_on_grid(solution, size))
-    if tail > _ACCEPTABLE:
+        grid = mode_grid(solution, size, "symmetric")
+        (line,) = lines_on([solution], grid, stacked_on_grids([solution], [grid])[0])
+    if line is None or line.tail > _ACCEPTABLE:
         raise ConvergenceError(
-            f"asymptotic line not resolved: error {line.error_estimate:.1e}; "
+            f"asymptotic line not resolved: error {line.error_estimate if line else inf:.1e}; "
             f"{not_resolved_because(solution.friction_angle)}"
         )
     return line
 
 
-def _on_grid(solution: RadialSolution, size: int) -> tuple[Grid, TiltedCoefficients]:
-    grid = mode_grid(solution, size, "symmetric")
-    return grid, on_grids(solution, [grid])[0]
+@checked
+def lines_on(
+    solutions: Sequence[RadialSolution], grid: Grid, at: TiltedCoefficients
+) -> list[AsymptoticLine]:
+    """Return the lines of solutions of one hopper by quadrature on one half grid off the axis.
 
-
-def _by_quadrature(
-    solution: RadialSolution, grid: Grid, at: TiltedCoefficients
-) -> tuple[AsymptoticLine, float]:
-    """Return the line on one grid, and what the grid leaves of its error, relative."""
-    slowness = cos(solution.hopper.delta) / at.w
+    ``at`` are their coefficients there, of shape (solutions, points).
+    """
+    slowness = cos(solutions[0].hopper.delta) / at.w
     growth = (at.f11 + at.f22) / 2
-    travel_time = float(grid.weights @ slowness)
-    abscissa = float(grid.weights @ (growth * slowness)) / travel_time
-    size = max(1.0, abs(abscissa))
-    tail = _tail(grid, (growth - abscissa) * slowness, slowness * size) / travel_time
-    sensitivity = float(np.abs(growth).max() + size)
-    error = tail + sensitivity * solution.error_estimate + _ROUNDING * size
-    return AsymptoticLine(abscissa, pi / travel_time, error), tail / size
-
-
-def _tail(grid: Grid, *integrands: Array) -> float:
-    """Return the largest of the last Chebyshev coefficients of what the quadrature adds up."""
-    values = np.stack([integrand * grid.stretch for integrand in integrands], axis=1)
-    return float(np.abs(chebyshev.half_coefficients(values, "even")[-3:]).max())
+    travel_time = slowness @ grid.weights
+    abscissa = (growth * slowness) @ grid.weights / travel_time
+    size = np.maximum(1.0, np.abs(abscissa))
+    integrands = (growth - abscissa[:, None]) * slowness, slowness * size[:, None]
+    last = chebyshev.last_half_coefficients(grid.size, "even", _LAST)
+    left = [np.abs((part * grid.stretch) @ last.T).max(axis=1) for part in integrands]
+    tail = np.maximum(*left) / travel_time
+    of_fields = np.array([solution.error_estimate for solution in solutions])
+    error = tail + (np.abs(growth).max(axis=1) + size) * of_fields + _ROUNDING * size
+    found = zip(abscissa, pi / travel_time, error, tail / size, strict=True)
+    return [AsymptoticLine(*map(float, values)) for values in found]

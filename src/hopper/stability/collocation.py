@@ -82,14 +82,18 @@ def require_disturbance(geometry: Geometry, parity: str) -> None:
 
 @checked
 def assemble(grid: Grid, at: TiltedCoefficients) -> Array:
-    """Return the matrix from the coefficients on its grid: asymmetric if the grid is centred."""
+    """Return the matrix from the coefficients on its grid: asymmetric if the grid is centred.
+
+    Coefficients of shape (..., m) give matrices of shape (..., n, n).
+    """
     m, node = grid.size, np.arange(grid.size)
     d_sigma, d_psi = (grid.d_odd, grid.d_even) if grid.centred else (grid.d_even, grid.d_odd)
-    matrix = np.zeros((2 * m, 2 * m))
-    np.multiply(at.j12[:, None], d_psi, out=matrix[:m, m:])
-    np.multiply(at.j21[:, None], d_sigma, out=matrix[m:, :m])
-    matrix[node, node] = at.f11
-    matrix[node, m + node] += at.f12
-    matrix[m + node, node] += at.f21
-    matrix[m + node, m + node] = at.f22
-    return matrix[int(grid.centred) : -1, int(grid.centred) : -1]
+    matrix = np.zeros((*at.f11.shape[:-1], 2 * m, 2 * m))
+    np.multiply(at.j12[..., None], d_psi, out=matrix[..., :m, m:])
+    np.multiply(at.j21[..., None], d_sigma, out=matrix[..., m:, :m])
+    matrix[..., node, node] = at.f11
+    matrix[..., node, m + node] += at.f12
+    matrix[..., m + node, node] += at.f21
+    matrix[..., m + node, m + node] = at.f22
+    inner = slice(int(grid.centred), -1)
+    return matrix[..., inner, inner]

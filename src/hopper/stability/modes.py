@@ -8,6 +8,7 @@ equations without t.
 A cone is judged by axisymmetric disturbances without swirl, a wedge by both parities.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal
@@ -15,12 +16,13 @@ from typing import Literal
 import numpy as np
 
 from hopper.arguments import ComplexRow, checked
-from hopper.arrays import Array, Complex
+from hopper.arrays import Array, Complex, Numbers
 from hopper.brief import brief
 from hopper.errors import ConvergenceError, not_resolved_because
 from hopper.problem import Geometry
+from hopper.radial.grid import layer_clustering
 from hopper.radial.solution import RadialSolution
-from hopper.stability.asymptotic_line import AsymptoticLine, asymptotic_line
+from hopper.stability.asymptotic_line import LINE_SIZES, AsymptoticLine, asymptotic_line, lines_on
 from hopper.stability.collocation import (
     Parity,
     assemble,
@@ -29,15 +31,19 @@ from hopper.stability.collocation import (
     require_disturbance,
     tilted_matrix,
 )
-from hopper.stability.tilted import on_grids
+from hopper.stability.tilted import stacked_on_grids
 
 Disturbances = Literal["symmetric", "any"]
 Governor = Literal["line", "complex mode", "real mode"]
 GOVERNORS: tuple[Governor, ...] = ("line", "complex mode", "real mode")
 Verdict = Literal["stable", "stable_symmetric_only", "unstable", "neutral"]
 
-_SIZES = (12, 16, 24, 36, 54, 80, 120)
+_SIZES = (12, 16, 22, 36, 54, 80, 120)
+# Half-grid points of a cone's radial solution from which on the first mesh is too coarse.
+_LAYERED = 36
 _TOLERANCE = 1e-10
+# Of the tolerance, what the quadrature of the line may take.
+_LINE_PART = 0.1
 LEAST_MODES = 3
 # Estimates of a mode's error are orders of magnitude: that by two meshes guesses the rate of
 # convergence (one of 748 random sets of modes exceeded a hundred times the guess).
@@ -140,6 +146,16 @@ class LinearStability:
         return "stable_symmetric_only" if value < -error else "unstable"
 
 
+@dataclass(frozen=True)
+class Start:
+    """The line on a coarse grid, and the eigenvalues with Im >= 0 of each parity on two meshes."""
+
+    line: AsymptoticLine
+    eigenvalues: dict[Parity, list[Complex]]
+
+    __repr__ = brief("line.abscissa")
+
+
 @checked
 def linear_stability(
     solution: RadialSolution,
@@ -147,6 +163,7 @@ def linear_stability(
     count: int = LEAST_MODES,
     tolerance: float = _TOLERANCE,
     others: float | None = None,
+    start: Start | None = None,
 ) -> LinearStability:
     """Return the low modes, the asymptotic line and the spectral abscissa of a radial solution.
 
@@ -161,6 +178,8 @@ def linear_stability(
     tolerance, others : float
         Error of the governing mode, and of the others (default: the same), relative where the
         modulus exceeds 1.
+    start : Start, optional
+        Of this solution, from :func:`stacked_starts`, which then has chosen the disturbances.
 
     Raises
     ------
@@ -169,19 +188,40 @@ def linear_stability(
     ConvergenceError
         If fewer than three low modes or the line converge.
     """
-    parities = parities_among(disturbances, solution.hopper.geometry)
-    ladders = {parity: [mode_grid(solution, m, parity) for m in _SIZES[:2]] for parity in parities}
-    line_grid = mode_grid(solution, _SIZES[2], "symmetric")
-    grids = [grid for ladder in ladders.values() for grid in ladder]
-    *first, last = on_grids(solution, [*grids, line_grid])
-    line = asymptotic_line(solution, (line_grid, last))
-    matrices = iter([assemble(grid, at) for grid, at in zip(grids, first, strict=True)])
-    modes = {}
-    for parity in parities:
-        start = [_upper(next(matrices)) for _ in ladders[parity]]
-        wanted = _Wanted(max(count, LEAST_MODES), tolerance, others or tolerance, line.abscissa)
-        modes[parity] = _low_modes(solution, parity, start, wanted)
+    if start is None:
+        parities = parities_among(disturbances, solution.hopper.geometry)
+        start = stacked_starts([solution], parities)[0]
+    line = asymptotic_line(solution, start.line, _LINE_PART * tolerance)
+    wanted = _Wanted(max(count, LEAST_MODES), tolerance, others or tolerance, line.abscissa)
+    modes = {
+        parity: _low_modes(solution, parity, spectra, wanted)
+        for parity, spectra in start.eigenvalues.items()
+    }
     return _judged(modes, line)
+
+
+@checked
+def stacked_starts(solutions: Sequence[RadialSolution], parities: Sequence[Parity]) -> list[Start]:
+    """Return what :func:`linear_stability` begins with, for solutions of one hopper at once."""
+    found: dict[int, Start] = {}
+    groups: dict[tuple[float, tuple[int, ...]], list[int]] = {}
+    for i, solution in enumerate(solutions):
+        layer = layer_clustering(solution.hopper, solution.member.tau)
+        groups.setdefault((layer, _first_sizes(solution)), []).append(i)
+    for (_, sizes), group in groups.items():
+        chosen = [solutions[i] for i in group]
+        line_grid = mode_grid(chosen[0], LINE_SIZES[0], "symmetric")
+        grids = [mode_grid(chosen[0], m, parity) for parity in parities for m in sizes]
+        *first, last = stacked_on_grids(chosen, [*grids, line_grid])
+        lines = lines_on(chosen, line_grid, last)
+        spectra = [
+            np.linalg.eigvals(assemble(grid, at)) for grid, at in zip(grids, first, strict=True)
+        ]
+        for row, i in enumerate(group):
+            upper = iter([_upper(values[row]) for values in spectra])
+            by_parity = {parity: [next(upper) for _ in sizes] for parity in parities}
+            found[i] = Start(lines[row], by_parity)
+    return [found[i] for i in range(len(solutions))]
 
 
 @checked
@@ -197,6 +237,12 @@ def parities_among(disturbances: Disturbances | None, geometry: Geometry) -> tup
         require_disturbance(geometry, "asymmetric")
     found = parities_of(geometry)
     return found[:1] if disturbances == "symmetric" else found
+
+
+def _first_sizes(solution: RadialSolution) -> tuple[int, ...]:
+    """Return the meshes to begin with: a layer in a cone asks the same of solution and modes."""
+    layered = solution.hopper.curvature and solution.member.grid.size >= _LAYERED
+    return _SIZES[1:3] if layered else _SIZES[:2]
 
 
 def _judged(modes: dict[Parity, Modes], line: AsymptoticLine) -> LinearStability:
@@ -231,8 +277,8 @@ def _low_modes(
     a partner on the coarser mesh and an error below what is wanted by that estimate.
     """
     coarse, best = start[0], None
-    for previous, size in pairwise(_SIZES):
-        index = _SIZES.index(size)
+    sizes = _SIZES[_SIZES.index(_first_sizes(solution)[0]) :]
+    for index, (previous, size) in enumerate(pairwise(sizes), 1):
         fine = start[index] if index < len(start) else upper_eigenvalues(solution, size, parity)
         error = partner_changes(fine, coarse) ** (size / previous)
         coarse = fine
@@ -266,22 +312,20 @@ def partner_changes(fine: ComplexRow, coarse: ComplexRow) -> Array:
     if not coarse.size:
         return np.full(fine.size, np.inf)
     distance = np.abs(fine[:, None] - coarse)
-    partner = distance.argmin(axis=1)
-    change = distance[np.arange(fine.size), partner] / np.maximum(np.abs(fine), 1)
-    _, first = np.unique(partner, return_index=True)
-    taken = np.ones(fine.size, dtype=bool)
-    taken[first] = False
-    change[taken] = np.inf
+    partner, own = distance.argmin(axis=1), np.arange(fine.size)
+    change = distance[own, partner] / np.maximum(np.abs(fine), 1)
+    first = np.empty(coarse.size, dtype=int)
+    first[partner[::-1]] = own[::-1]
+    change[first[partner] != own] = np.inf
     return change
 
 
 @checked
 def upper_eigenvalues(solution: RadialSolution, size: int, parity: Parity = "symmetric") -> Complex:
     """Return the eigenvalues with Im >= 0 on ``size`` half-grid points, by increasing modulus."""
-    return _upper(tilted_matrix(solution, size, parity))
+    return _upper(np.linalg.eigvals(tilted_matrix(solution, size, parity)))
 
 
-def _upper(matrix: Array) -> Complex:
-    values = np.linalg.eigvals(matrix).astype(np.complex128)
-    upper = values[values.imag >= 0]
+def _upper(values: Numbers) -> Complex:
+    upper = values[values.imag >= 0].astype(np.complex128)
     return upper[np.argsort(np.abs(upper))]

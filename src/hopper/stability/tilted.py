@@ -30,6 +30,7 @@ from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 from hopper.problem import Hopper
+from hopper.radial.fields import stacked_fields
 from hopper.radial.grid import Grid, half_grid
 from hopper.radial.solution import RadialSolution
 from hopper.spectral import chebyshev
@@ -38,7 +39,7 @@ from hopper.yield_conditions import MOHR_COULOMB
 
 @dataclass(frozen=True)
 class TiltedCoefficients:
-    """Entries of J and of F = J K at n angles, each of shape (n,); J11 = J22 = 0.
+    """Entries of J and of F = J K at n angles, each of shape (..., n); J11 = J22 = 0.
 
     The factor w of J cancels in F. ``w`` vanishes where the radial solution itself is singular;
     ``sigma`` and ``psi`` are the radial solution's.
@@ -100,17 +101,34 @@ def tilted_coefficients(solution: RadialSolution, theta: RealLike) -> TiltedCoef
 
 @checked
 def on_grids(solution: RadialSolution, grids: Sequence[Grid]) -> list[TiltedCoefficients]:
-    """Return the coefficients at the points of several half grids, evaluated together.
+    """Return the coefficients at the points of several half grids, evaluated together."""
+    return [
+        TiltedCoefficients(**{name: value[0] for name, value in vars(at).items()})
+        for at in stacked_on_grids([solution], grids)
+    ]
 
-    At these sizes numpy's overhead is most of the cost.
+
+@checked
+def stacked_on_grids(
+    solutions: Sequence[RadialSolution], grids: Sequence[Grid]
+) -> list[TiltedCoefficients]:
+    """Return the coefficients of solutions of one hopper at points of half grids.
+
+    Their entries have the shape (solutions, points). Evaluated together, as at these sizes numpy's
+    overhead is most of the cost.
+
+    Raises
+    ------
+    InvalidParameterError
+        As :func:`require_linear` and :func:`hopper.radial.fields.stacked_fields`.
     """
-    require_linear(solution)
-    fields = solution.fields_on(grids)
+    fields = stacked_fields([solution.member for solution in solutions], grids)
+    require_linear(solutions[0])
     cot = np.concatenate([grid.cot for grid in grids])
-    at = vars(_coefficients(solution, cot, fields))
+    at = vars(_coefficients(solutions[0], cot, fields))
     stops = np.cumsum([grid.size for grid in grids])
     parts = [slice(stop - grid.size, stop) for stop, grid in zip(stops, grids, strict=True)]
-    return [TiltedCoefficients(**{name: at[name][part] for name in at}) for part in parts]
+    return [TiltedCoefficients(**{name: at[name][:, part] for name in at}) for part in parts]
 
 
 def _coefficients(
