@@ -10,8 +10,8 @@ import sys
 from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 
-# The host of a module keeps its sys.path.
-sys.path.append(str(ROOT / "scripts"))
+# Ours before others of their names; the host of a module keeps its sys.path.
+sys.path.insert(0, str(ROOT / "scripts"))
 from hopper_workflow import (
     code_graph,
     configuration,
