@@ -126,6 +126,12 @@ def test_make_and_snakemake_keep_the_same_from_jobs(fresh, tmp_path):
     assert passed["MINE"] == settled["MINE"] == "kept"
 
 
+def test_the_modules_of_another_clone_are_not_ours(fresh, tmp_path):
+    for name in ("hopper", "hopper_workflow"):
+        (tmp_path / f"{name}.py").write_text(TRAP)
+    fresh.build("figures/fig_1_1.png", PYTHONPATH=str(tmp_path))
+
+
 def test_make_brings_a_home_and_a_name(fresh, tmp_path, monkeypatch):
     for name in ("LOGNAME", "USER", "LNAME", "USERNAME"):
         monkeypatch.delenv(name, raising=False)

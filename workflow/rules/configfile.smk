@@ -35,6 +35,7 @@ if Path(sys.executable).exists():
 if not workflow.modifier.skip_configfile:
     if foreign := surroundings.set_aside(os.environ):
         logger.info(f"Set aside from the environment: {' '.join(foreign)}")
+    sys.path[:] = surroundings.own_path(sys.path, os.environ)
     settled = surroundings.settled(os.environ)
     os.environ.clear()
     os.environ.update(settled)
