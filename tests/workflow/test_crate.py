@@ -108,6 +108,7 @@ def test_a_second_crate_of_the_same_run_says_the_same(crate, run, archive):
     assert metadata() == first
 
 
+@pytest.mark.soak
 def test_who_unpacks_it_has_the_run_as_it_was_configured(rebuilt, tmp_path):
     (rebuilt.path / "mine.yaml").write_text("fig_1_1: {half_angle_deg: 25}\n")
     done = with_make(rebuilt, "figures", "CONFIG=mine.yaml")

@@ -83,7 +83,7 @@ def hostile(folder: Path) -> dict[str, str]:
 
 
 @pytest.mark.parametrize(
-    "goal", ["figures/fig_3_2.png", pytest.param("figures", marks=pytest.mark.soak)]
+    "goal", ["figures/fig_1_1.png", pytest.param("figures", marks=pytest.mark.soak)]
 )
 def test_a_hostile_environment_leaves_every_byte_as_it_is(fresh, copy_workflow, tmp_path, goal):
     other = copy_workflow(tmp_path / "hostile")
@@ -96,7 +96,7 @@ def test_a_hostile_environment_leaves_every_byte_as_it_is(fresh, copy_workflow, 
     done = with_make(other, goal, variables=variables, umask=0o077)
     assert done.returncode == 0, done.stderr
     expected, found = fresh.products(), other.products()
-    assert {"figures/fig_3_2.png", "results/radial/fig_3_2.nc"} <= expected.keys()
+    assert "figures/fig_1_1.png" in expected
     assert found == expected
     record(
         "surroundings",
@@ -126,6 +126,7 @@ def test_make_and_snakemake_keep_the_same_from_jobs(fresh, tmp_path):
     assert passed["MINE"] == settled["MINE"] == "kept"
 
 
+@pytest.mark.soak
 def test_the_modules_of_another_clone_are_not_ours(fresh, tmp_path):
     for name in ("hopper", "hopper_workflow"):
         (tmp_path / f"{name}.py").write_text(TRAP)
