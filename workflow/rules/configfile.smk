@@ -11,7 +11,7 @@ from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 
 # Ours before others of their names; the host of a module keeps its sys.path.
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path[:] = [str(ROOT / "scripts"), *sys.path]
 from hopper_workflow import (
     code_graph,
     configuration,
