@@ -109,7 +109,7 @@ def test_limits_of_random_cones(seed, number):
     folds = [(hopper, limit) for hopper, limit in limits if limit.end == "fold"]
     _, phi = taylor.fold([hopper for hopper, _ in folds], [limit.tau for _, limit in folds])
     covered = [
-        abs(limit.friction_angle - shot) <= limit.error_estimate
+        bool(abs(limit.friction_angle - shot) <= limit.error_estimate)
         for (_, limit), shot in zip(folds, phi, strict=True)
     ]
     print(f"  {len(limits)} limits, {sum(covered)} of {len(covered)} folds covered")
