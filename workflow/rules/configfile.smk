@@ -13,6 +13,7 @@ from snakemake.logging import logger
 # Ours before others of their names; the host of a module keeps its sys.path.
 sys.path[:] = [str(ROOT / "scripts"), *sys.path]
 from hopper_workflow import (
+    cases,
     code_graph,
     configuration,
     console,
