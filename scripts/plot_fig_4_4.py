@@ -91,7 +91,7 @@ def _name_curve(axis: Axes, data: xr.Dataset, color: object, name: str) -> None:
 
 
 # Part of its length at which a curve is named.
-_NAMED = 0.4
+_NAMED = 0.55
 _KEYS = (
     plotting.key("a mode is the largest"),
     plotting.key(r"the line $\Lambda$ is the largest", linestyle="--"),
