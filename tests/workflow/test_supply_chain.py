@@ -34,7 +34,9 @@ def installs() -> list[str]:
     assert pip
     text = "\n".join(place.read_text() for place in places).replace("$(PIP)", pip[1])
     return [
-        line for line in text.splitlines() if re.search(r"\b(pip|pipx|conda|uv)3? .*install", line)
+        line
+        for line in text.splitlines()
+        if re.search(r"\bpip3? install|\b(pipx|conda|uv) .*install", line)
     ]
 
 
