@@ -199,7 +199,8 @@ def test_the_page_shows_every_claim_and_needs_nothing_else(built, ledger):
     for row in ledger:
         for column in ("place", "claim", "test", "remark"):
             assert symbols(row[column]) in text
-        assert all(path in text for path in row["artifact"].split("; "))
+        for path in row["artifact"].split("; "):
+            assert path.removeprefix("results/") in text
     cells = [attrs["class"] for tag, attrs in page.tags if tag == "td" and "class" in attrs]
     assert [name.split()[0] for name in cells] == ["verdict"] * len(ledger)
     styles = {row["verdict"]: cell for row, cell in zip(ledger, cells, strict=True)}

@@ -41,7 +41,9 @@ def installs() -> list[str]:
 
 
 def test_installs_come_from_hashed_locks_only():
-    commands = [line for line in installs() if not line.startswith("PIP :=")]
+    # What users do without the workflow, tried in CI, takes the newest packages.
+    users = 'run: python -m pip install ".[plot,data]"'
+    commands = [line for line in installs() if not line.startswith("PIP :=") and users not in line]
     assert len(commands) >= 5
     for command in commands:
         if re.search(r"-e \.$", command):
