@@ -220,21 +220,11 @@ def traced_borders(geometry: Geometry, half_angle: Radians, deltas: RealRow) -> 
 
 def _merged(one: Borders, other: Borders) -> Borders:
     """Return two results as one, over increasing delta."""
-    order = np.argsort(np.concatenate([one.delta, other.delta]))
-
-    def both(name: str) -> Array:
-        return np.concatenate([getattr(one, name), getattr(other, name)])[order]
-
-    ends = (*one.end, *other.end)
-    return Borders(
-        both("delta"),
-        both("limit"),
-        both("limit_error"),
-        tuple(ends[index] for index in order),
-        both("tangency"),
-        both("singular_velocity"),
-        both("positive_stress"),
-    )
+    both = {name: (*vars(one)[name], *vars(other)[name]) for name in vars(one)}
+    order = np.argsort(both["delta"])
+    ends = both.pop("end")
+    arrays = {name: np.array(values)[order] for name, values in both.items()}
+    return Borders(**arrays, end=tuple(ends[index] for index in order))
 
 
 def _rough(found: Borders) -> Mask:
