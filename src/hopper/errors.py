@@ -29,6 +29,10 @@ class NoRadialSolutionError(HopperError):
         self.largest_friction_angle = largest_friction_angle
 
 
+class NoLimitError(HopperError):
+    """There is no such limit for a material and its wall; the message says why."""
+
+
 class SingularVelocityError(HopperError):
     """The velocity equation is singular because psi reaches pi/4 at ``theta`` (radians)."""
 

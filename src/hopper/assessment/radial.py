@@ -84,13 +84,9 @@ def describe_radial(solution: RadialSolution) -> RadialAssessment:
     psi_wall = hopper.material.wall_angle(hopper.delta, solution.friction_angle)
     velocity = u_wall = solutions = None
     try:
-        known = solve_velocity(solution)
-        (log_u,) = with_errors(solution, _log_u_wall)
+        velocity, u_wall = wall_velocity(solution)
     except (SingularVelocityError, ConvergenceError) as unknown:
         notes.append(str(unknown))
-    else:
-        velocity = known
-        u_wall = Quantity(known.wall, known.wall * (log_u.error + known.error_estimate))
     limits = assess_limits(hopper)
     if limits.friction is None:
         notes.append("the largest friction with a radial solution is not resolved")
@@ -112,6 +108,21 @@ def describe_radial(solution: RadialSolution) -> RadialAssessment:
         limits=limits,
         notes=tuple(notes),
     )
+
+
+@checked
+def wall_velocity(solution: RadialSolution) -> tuple[VelocityField, Quantity]:
+    """Return the velocity field of a radial solution, and u(theta_w) / u(0).
+
+    Raises
+    ------
+    SingularVelocityError, ConvergenceError
+        As :func:`hopper.radial.velocity.solve_velocity`.
+    """
+    velocity = solve_velocity(solution)
+    (log_u,) = with_errors(solution, _log_u_wall)
+    error = velocity.wall * (log_u.error + velocity.error_estimate)
+    return velocity, Quantity(velocity.wall, error)
 
 
 def _numbers(solution: RadialSolution) -> Array:

@@ -1,0 +1,260 @@
+"""How wide a hopper may be for its material and wall: the half angles at which something ends.
+
+All are functions of the half angle at given delta and wall friction, so that an answer is a root.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from math import degrees, isnan, nan, pi, radians
+from typing import Literal, get_args
+
+import numpy as np
+from scipy.optimize import brentq
+
+from hopper.arguments import Radians, checked
+from hopper.assessment.propagation import ROUNDING, with_errors
+from hopper.assessment.stability import abscissa_with_error
+from hopper.brief import brief
+from hopper.errors import ConvergenceError, HopperError, NoLimitError, NoRadialSolutionError
+from hopper.problem import Geometry, Hopper
+from hopper.quantity import Quantity
+from hopper.radial.friction_limit import friction_limit
+from hopper.radial.mass_flow import mass_flow_half_angle
+from hopper.radial.solution import RadialSolution, solve_radial
+from hopper.stability.modes import Disturbances, linear_stability
+from hopper.yield_conditions import MOHR_COULOMB, YieldCondition
+
+Limit = Literal["classical", "limit", "velocity", "stability"]
+LIMITS: tuple[Limit, ...] = get_args(Limit)
+
+# The narrowest and the widest half angle looked at, and where roots end (radians).
+_NARROWEST, _WIDEST, _ROOT = radians(0.5), radians(89), 1e-12
+# Half angles at which stability is looked at, and how far below the limit of friction the last may
+# be, relative: the first of these at which fields are resolved.
+_SAMPLES, _BELOW = 16, (1e-8, 1e-6, 1e-4, 1e-2)
+# Step for slopes, radians.
+_STEP = 1e-6
+
+
+@dataclass(frozen=True)
+class Material:
+    """What fills a hopper, and its wall: angles in radians.
+
+    Parameters
+    ----------
+    geometry : "wedge" or "cone"
+    delta, friction_angle : float
+        Angles of internal friction and of wall friction.
+    condition : YieldCondition
+        Mohr-Coulomb, or von Mises (cone only).
+    """
+
+    geometry: Geometry
+    delta: float
+    friction_angle: float
+    condition: YieldCondition = MOHR_COULOMB
+
+    __repr__ = brief("geometry", "delta deg", "friction_angle deg", "condition.name")
+
+    @checked
+    def hopper(self, half_angle: Radians) -> Hopper:
+        """Return the hopper of a half angle."""
+        return Hopper(self.geometry, self.delta, half_angle, self.condition)
+
+    @checked
+    def solution(self, half_angle: Radians) -> RadialSolution:
+        """Return the radial solution at a half angle, as :func:`hopper.radial.solve_radial`."""
+        return solve_radial(self.hopper(half_angle), self.friction_angle)
+
+
+@dataclass(frozen=True)
+class HalfAngles:
+    """The half angles (radians) up to which something holds, from the narrowest hopper on.
+
+    Attributes
+    ----------
+    classical : Quantity or None
+        The material slips along the wall: sigma_0 -> 0, Jenike's mass-flow limit. Cones with
+        sin(delta) >= 1/3.
+    limit : Quantity or None
+        A radial solution exists.
+    velocity : Quantity or None
+        Radial flow reaches the wall: psi stays below pi/4.
+    stability : Quantity or None
+        The radial solution is stable: the largest half angle of which that is true.
+    stable_from : Quantity or None
+        The least half angle of that stable interval, where narrower hoppers are not stable.
+    mass_flow : Quantity or None
+        The one of mass flow: ``classical`` of Mohr-Coulomb cones, ``velocity`` of others.
+    notes : tuple of str
+        Why something is None.
+    """
+
+    classical: Quantity | None
+    limit: Quantity | None
+    velocity: Quantity | None
+    stability: Quantity | None
+    stable_from: Quantity | None
+    mass_flow: Quantity | None
+    notes: tuple[str, ...]
+
+    __repr__ = brief("classical deg", "limit deg", "velocity deg", "stability deg")
+
+    @property
+    def governed_by(self) -> Limit | None:
+        """Which of the limits is the smallest, None where there is none."""
+        known = [name for name in LIMITS if getattr(self, name)]
+        return min(known, key=lambda name: getattr(self, name).value, default=None)
+
+    @property
+    def smallest(self) -> Quantity | None:
+        """The smallest of the limits."""
+        found: Quantity | None = self.governed_by and getattr(self, self.governed_by)
+        return found
+
+
+@checked
+def half_angles(material: Material, disturbances: Disturbances | None = None) -> HalfAngles:
+    """Return the half angles up to which something holds.
+
+    ``disturbances`` as in :func:`hopper.stability.modes.linear_stability`.
+
+    Raises
+    ------
+    WallFrictionError
+        If the material cannot transmit the wall's friction.
+    InvalidParameterError
+        If an angle is out of range, or asymmetric disturbances of a cone are asked for.
+    """
+    narrow = material.hopper(_NARROWEST)
+    narrow.material.wall_angle(narrow.delta, material.friction_angle)
+    notes: list[str] = []
+    classical = _noted(notes, "classical", lambda: _classical(material))
+    limit = _noted(notes, "limit", lambda: _limit(material))
+    # A limit that is not there is none at all only where no wall is too wide.
+    widest = limit.value if limit else _WIDEST
+    velocity = _noted(notes, "velocity", lambda: _velocity(material, widest))
+    least = stability = None
+    try:
+        if material.condition != MOHR_COULOMB:
+            raise NoLimitError("not formulated for this yield condition")
+        least, stability = _stable(material, limit, disturbances)
+    except HopperError as error:
+        notes.append(f"stability: {error}")
+    slips = material.geometry == "cone" and material.condition == MOHR_COULOMB
+    flows = classical if slips else velocity
+    return HalfAngles(classical, limit, velocity, stability, least, flows, tuple(notes))
+
+
+def _noted(notes: list[str], name: Limit, find: Callable[[], Quantity]) -> Quantity | None:
+    try:
+        return find()
+    except HopperError as error:
+        notes.append(f"{name}: {error}")
+        return None
+
+
+def _classical(material: Material) -> Quantity:
+    if material.geometry != "cone" or material.condition != MOHR_COULOMB:
+        raise NoLimitError("known of Mohr-Coulomb cones only")
+
+    def angle(delta: float) -> float:
+        hopper = replace(material.hopper(_NARROWEST), delta=delta)
+        return mass_flow_half_angle(hopper, material.friction_angle)
+
+    found = angle(material.delta)
+    if found <= 0:
+        raise NoLimitError("the wall is too rough for mass flow at any half angle")
+    rounded = abs(angle(material.delta * (1 + ROUNDING)) - found)
+    return Quantity(found, rounded + ROUNDING)
+
+
+def _limit(material: Material) -> Quantity:
+    def excess(half_angle: float) -> float:
+        try:
+            found = friction_limit(material.hopper(half_angle))
+        except NoRadialSolutionError:
+            return -pi / 2  # not even for a smooth wall
+        return found.friction_angle - material.friction_angle
+
+    if excess(_NARROWEST) <= 0:
+        raise NoLimitError("no half angle has a radial solution with this wall")
+    if excess(_WIDEST) > 0:
+        raise NoLimitError("radial solutions exist at every half angle")
+    root = brentq(excess, _NARROWEST, _WIDEST, xtol=_ROOT)
+    try:
+        here, before = (friction_limit(material.hopper(angle)) for angle in (root, root - _STEP))
+    except NoRadialSolutionError:  # a smooth wall, of which the limit is where the family ends
+        return Quantity(root, _STEP)
+    slope = abs(before.friction_angle - here.friction_angle) / _STEP
+    return Quantity(root, here.error_estimate / slope + _ROOT + ROUNDING if slope else _STEP)
+
+
+def _velocity(material: Material, widest: float) -> Quantity:
+    def excess(half_angle: float) -> float:
+        return material.solution(half_angle).psi_maximum()[1] - pi / 4
+
+    if excess(_NARROWEST) >= 0:
+        raise NoLimitError("radial flow reaches the wall at no half angle")
+    end = _widest_solved(material, widest)
+    if excess(end) < 0:
+        raise NoLimitError("radial flow reaches the wall wherever it exists")
+    root = brentq(excess, _NARROWEST, end, xtol=_ROOT)
+    (psi,) = with_errors(
+        material.solution(root), lambda solution: np.array(solution.psi_maximum()[1:])
+    )
+    slope = (psi.value - pi / 4 - excess(root - _STEP)) / _STEP
+    return Quantity(root, (abs(psi.value - pi / 4) + psi.error) / slope + _ROOT)
+
+
+def _widest_solved(material: Material, widest: float) -> float:
+    """Return the half angle closest to the widest one whose radial solution is resolved."""
+    for share in _BELOW:
+        try:
+            material.solution(widest * (1 - share))
+        except (ConvergenceError, NoRadialSolutionError):
+            continue
+        return widest * (1 - share)
+    raise ConvergenceError("no radial solution is resolved close to the limit of friction")
+
+
+def _stable(
+    material: Material, limit: Quantity | None, disturbances: Disturbances | None
+) -> tuple[Quantity | None, Quantity]:
+    """Return the ends of the widest stable interval of half angles; the first None without one."""
+
+    def abscissa(half_angle: float) -> float:
+        return linear_stability(material.solution(half_angle), disturbances).abscissa
+
+    def sampled(half_angle: float) -> float:
+        try:
+            return abscissa(half_angle)
+        except HopperError:
+            return nan
+
+    def root(low: float, high: float) -> Quantity:
+        found = brentq(abscissa, low, high, xtol=_ROOT)
+        _, here = abscissa_with_error(material.solution(found), disturbances)
+        slope = abs(abscissa(found - _STEP) - here.value) / _STEP
+        return Quantity(found, (abs(here.value) + here.error) / slope + _ROOT)
+
+    end = _widest_solved(material, limit.value) if limit else _WIDEST
+    angles = np.linspace(_NARROWEST, end, _SAMPLES)
+    values = np.array([sampled(float(angle)) for angle in angles])
+    (stable,) = np.nonzero(values < 0)
+    if not stable.size:
+        known = np.isfinite(values).all()
+        raise NoLimitError("no half angle is stable" + ("" if known else " of those resolved"))
+    last = first = int(stable[-1])
+    while first > 0 and values[first - 1] < 0:
+        first -= 1
+    least = root(angles[first - 1], angles[first]) if first and values[first - 1] >= 0 else None
+    if last + 1 < angles.size:
+        if isnan(values[last + 1]):
+            raise ConvergenceError(
+                f"stable up to {degrees(angles[last]):.4g} deg at least; not resolved beyond"
+            )
+        return least, root(angles[last], angles[last + 1])
+    if limit is None:
+        raise NoLimitError(f"stable up to {degrees(angles[last]):.4g} deg, the widest looked at")
+    return least, limit
