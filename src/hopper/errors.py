@@ -33,6 +33,10 @@ class NoLimitError(HopperError):
     """There is no such limit for a material and its wall; the message says why."""
 
 
+class NowhereError(NoLimitError):
+    """What the limit would bound is so for no hopper of that material and wall."""
+
+
 class SingularVelocityError(HopperError):
     """The velocity equation is singular because psi reaches pi/4 at ``theta`` (radians)."""
 

@@ -15,7 +15,14 @@ from hopper.arguments import Radians, checked
 from hopper.assessment.propagation import ROUNDING, with_errors
 from hopper.assessment.stability import abscissa_with_error
 from hopper.brief import brief
-from hopper.errors import ConvergenceError, HopperError, NoLimitError, NoRadialSolutionError
+from hopper.errors import (
+    ConvergenceError,
+    HopperError,
+    InvalidParameterError,
+    NoLimitError,
+    NoRadialSolutionError,
+    NowhereError,
+)
 from hopper.problem import Geometry, Hopper
 from hopper.quantity import Quantity
 from hopper.radial.friction_limit import friction_limit
@@ -141,9 +148,37 @@ def half_angles(material: Material, disturbances: Disturbances | None = None) ->
         least, stability = _stable(material, limit, disturbances)
     except HopperError as error:
         notes.append(f"stability: {error}")
-    slips = material.geometry == "cone" and material.condition == MOHR_COULOMB
-    flows = classical if slips else velocity
+    flows = classical if _slips(material) else velocity
     return HalfAngles(classical, limit, velocity, stability, least, flows, tuple(notes))
+
+
+@checked
+def flow_limit(material: Material) -> Quantity:
+    """Return the half angle (radians) up to which there is mass flow.
+
+    That is where the material ceases to slip along the wall in Mohr-Coulomb cones, and where radial
+    flow ceases to reach the wall in wedges and for von Mises materials.
+
+    Raises
+    ------
+    NoLimitError
+        If there is no such half angle; the message says whether that is for want of a limit.
+    WallFrictionError
+        If the material cannot transmit the wall's friction.
+    ConvergenceError
+        If it is not resolved.
+    """
+    if _slips(material):
+        return _classical(material)
+    try:
+        widest = _limit(material).value
+    except NoLimitError:
+        widest = _WIDEST
+    return _velocity(material, widest)
+
+
+def _slips(material: Material) -> bool:
+    return material.geometry == "cone" and material.condition == MOHR_COULOMB
 
 
 def _noted(notes: list[str], name: Limit, find: Callable[[], Quantity]) -> Quantity | None:
@@ -155,16 +190,19 @@ def _noted(notes: list[str], name: Limit, find: Callable[[], Quantity]) -> Quant
 
 
 def _classical(material: Material) -> Quantity:
-    if material.geometry != "cone" or material.condition != MOHR_COULOMB:
+    if not _slips(material):
         raise NoLimitError("known of Mohr-Coulomb cones only")
 
     def angle(delta: float) -> float:
         hopper = replace(material.hopper(_NARROWEST), delta=delta)
         return mass_flow_half_angle(hopper, material.friction_angle)
 
-    found = angle(material.delta)
+    try:
+        found = angle(material.delta)
+    except InvalidParameterError as error:
+        raise NoLimitError(str(error)) from None
     if found <= 0:
-        raise NoLimitError("the wall is too rough for mass flow at any half angle")
+        raise NowhereError("the wall is too rough for mass flow at any half angle")
     rounded = abs(angle(material.delta * (1 + ROUNDING)) - found)
     return Quantity(found, rounded + ROUNDING)
 
@@ -178,7 +216,7 @@ def _limit(material: Material) -> Quantity:
         return found.friction_angle - material.friction_angle
 
     if excess(_NARROWEST) <= 0:
-        raise NoLimitError("no half angle has a radial solution with this wall")
+        raise NowhereError("no half angle has a radial solution with this wall")
     if excess(_WIDEST) > 0:
         raise NoLimitError("radial solutions exist at every half angle")
     root = brentq(excess, _NARROWEST, _WIDEST, xtol=_ROOT)
@@ -195,7 +233,7 @@ def _velocity(material: Material, widest: float) -> Quantity:
         return material.solution(half_angle).psi_maximum()[1] - pi / 4
 
     if excess(_NARROWEST) >= 0:
-        raise NoLimitError("radial flow reaches the wall at no half angle")
+        raise NowhereError("radial flow reaches the wall at no half angle")
     end = _widest_solved(material, widest)
     if excess(end) < 0:
         raise NoLimitError("radial flow reaches the wall wherever it exists")
@@ -244,7 +282,7 @@ def _stable(
     (stable,) = np.nonzero(values < 0)
     if not stable.size:
         known = np.isfinite(values).all()
-        raise NoLimitError("no half angle is stable" + ("" if known else " of those resolved"))
+        raise NowhereError("no half angle is stable" + ("" if known else " of those resolved"))
     last = first = int(stable[-1])
     while first > 0 and values[first - 1] < 0:
         first -= 1

@@ -1,0 +1,61 @@
+"""Mass flow, yes or no, and with how much half angle to spare."""
+
+from dataclasses import dataclass
+
+from hopper.arguments import Radians, checked
+from hopper.brief import brief
+from hopper.design.half_angles import Material, flow_limit
+from hopper.errors import NoLimitError, NonPositiveStressError, NoRadialSolutionError, NowhereError
+from hopper.quantity import Quantity
+
+
+@dataclass(frozen=True)
+class FlowPattern:
+    """Whether a hopper is in mass flow.
+
+    Attributes
+    ----------
+    mass_flow : bool
+    spare : Quantity or None
+        Half angle (radians) up to the limit of mass flow, negative beyond it; None without a limit.
+    reason : str
+        Why there is none; empty otherwise.
+    """
+
+    mass_flow: bool
+    spare: Quantity | None
+    reason: str
+
+    __repr__ = brief("mass_flow", "spare deg", "reason")
+
+
+@checked
+def flow_pattern(material: Material, half_angle: Radians) -> FlowPattern:
+    """Return whether a hopper of half angle ``half_angle`` (radians) is in mass flow.
+
+    That is within the limit of :func:`hopper.design.half_angles.flow_limit`. Without one it is
+    where there is a radial solution.
+
+    Raises
+    ------
+    WallFrictionError
+        If the material cannot transmit the wall's friction.
+    ConvergenceError
+        If the limit is not resolved.
+    """
+    try:
+        limit = flow_limit(material)
+    except NowhereError as error:
+        return FlowPattern(False, None, str(error))
+    except NoLimitError as error:
+        return FlowPattern(_solved(material, half_angle), None, str(error))
+    spare = Quantity(limit.value - half_angle, limit.error)
+    return FlowPattern(spare.value > 0, spare, "")
+
+
+def _solved(material: Material, half_angle: float) -> bool:
+    try:
+        material.solution(half_angle)
+    except (NoRadialSolutionError, NonPositiveStressError):
+        return False
+    return True
