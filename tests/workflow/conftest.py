@@ -53,6 +53,7 @@ COARSE: dict[str, Any] = {
     "paper_border.coarse_nodes": 40,
     "domain_angle.half_angles_deg": [10, 30],
     "domain_angle.neutral_step_deg": 4,
+    "domain_angle.curve_points": 3,
     "claims.models.deltas_deg.step": 20,
     "claims.models.psi_points": 4,
     "claims.linear.folds.half_angles_deg": [10],

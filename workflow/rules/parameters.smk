@@ -87,9 +87,9 @@ def labels_of_case(wildcards):
         "case": case["name"],
         "verdict": cases.verdict(f"results/cases/{case['name']}.nc"),
         "hopper": case["geometry"],
-        "δ": f"{case['delta_deg']:g}°",
+        "delta": f"{case['delta_deg']:g}°",
         "half angle": f"{case['half_angle_deg']:g}°",
-        "μ": f"{case['mu']:g}",
+        "mu": f"{case['mu']:g}",
     }
 
 
