@@ -167,3 +167,61 @@ class Shooting:
                 return current
             now = self.determinant(current)
         raise AssertionError(f"secant method did not converge: last steps {np.abs(step)}")
+
+
+def law_by_shooting(solution: RadialSolution, points: int = 48):
+    """Return Phi, Gamma of both families and A, B, C, F of the law of high frequency.
+
+    K1 and K0 of V = (P, Q, lambda U, lambda W) are read off the theta-form at three lambda; its
+    eigenvectors are numpy's, their slopes central differences; Gauss-Legendre quadrature.
+    """
+    form = Shooting(solution)
+
+    def parts(theta):
+        sigma, psi, _, _ = (f[0] for f in solution.fields([theta]))
+
+        def matrix(lam):
+            columns = form.slopes(theta, np.array([np.log(sigma), psi, *np.eye(4).ravel()]), lam)
+            scale = np.array([1, 1, lam, lam])
+            return columns[2:].reshape(4, 4) * scale[:, None] / scale
+
+        plus, minus, two = matrix(1.0), matrix(-1.0), matrix(2.0)
+        k0 = (plus + minus) / 2
+        odd = (plus - minus) / 2
+        return (two - k0 - odd / 2) / 1.5, k0
+
+    def waves(theta):
+        """Slopes and right vectors of a+, b+, b-, a-, and K0."""
+        k1, k0 = parts(theta)
+        kappa, right = np.linalg.eig(k1)
+        if np.iscomplexobj(kappa):
+            order = np.lexsort((kappa.imag * np.sign(kappa.real), -np.sign(kappa.real)))
+            order = order[[0, 1, 3, 2]]
+        else:
+            order = np.argsort(-kappa)
+        right = right[:, order]
+        return kappa[order], right / right[3], k0
+
+    def exponents(theta):
+        h = 2e-4 * form.wall
+        kappa, right, k0 = waves(theta)
+        slope = (
+            sum(
+                w * (waves(theta + i * h)[1] - waves(theta - i * h)[1])
+                for i, w in ((1, 0.75), (2, -0.15), (3, 1 / 60))
+            )
+            / h
+        )
+        g = np.linalg.inv(right) @ (k0 @ right - slope)
+        return kappa[:2], np.diag(g)[:2]
+
+    # Differences next to the wall need room, which the nodes leave.
+    x, weight = legendre.leggauss(points)
+    sums = [exponents(form.wall * node) for node in x]
+    phi, gamma = (
+        form.wall * sum(w * one[i] for w, one in zip(weight, sums, strict=True)) for i in (0, 1)
+    )
+    _, right, _ = waves(form.wall)
+    v = right[1] + form.mu * right[0]
+    a_out, b_out, b_in, a_in = v
+    return phi, gamma, np.array([a_in - b_in, a_out - b_in, a_in - b_out, a_out - b_out])
