@@ -65,9 +65,9 @@ def equation_type(solution: RadialSolution) -> EquationType:
     if delta >= TENSION:
         return EquationType("tension")
     if delta >= AXIS_HYPERBOLIC:
-        return EquationType("hyperbolic", slanted=_reaches(solution, tangency_angle(s)))
+        return EquationType("hyperbolic", slanted=reaches(solution, tangency_angle(s)))
     limit = sonic_angle(s)
-    if not _reaches(solution, limit):
+    if not reaches(solution, limit):
         return EquationType("elliptic")
     sonic = _crossings(solution, limit)
     return EquationType("mixed", sonic=sonic, ring_spacing=_ring_spacing(solution, sonic))
@@ -114,7 +114,8 @@ def slopes(c: Array, q: Array, m: float) -> Numbers:
     return (roots - turn) / (1 + roots * turn)
 
 
-def _reaches(solution: RadialSolution, psi: float) -> bool:
+def reaches(solution: RadialSolution, psi: float) -> bool:
+    """Whether the largest psi of a flow is at least the given one, radians."""
     at_nodes = float(solution.psi.max())
     return at_nodes >= psi or (at_nodes >= _NEAR * psi and solution.psi_maximum()[1] >= psi)
 

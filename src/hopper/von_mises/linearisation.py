@@ -86,6 +86,12 @@ class Coefficients:
         ])  # fmt: skip
 
     @property
+    def cancellation(self) -> float:
+        """Largest factor by which the determinant of ``stress_rate`` loses digits: at its zeros."""
+        rs, ry, ts, ty = self.stress_rate
+        return float(((np.abs(rs * ty) + np.abs(ry * ts)) / np.abs(rs * ty - ry * ts)).max())
+
+    @property
     def wall(self) -> float:
         """K of the wall's law Y = k W' at the last point, from Y = s q Z / (2 (c + m))."""
         c, q = self.c[-1], self.q[-1]
