@@ -83,7 +83,7 @@ def growth(solution: RadialSolution, tolerance: float = 1e-9, first: int | None 
         If too few modes or the strips are not resolved.
     """
     modes = low_modes(solution, tolerance, first)
-    return _growth(modes, high_frequency(solution))
+    return growth_of(modes, high_frequency(solution))
 
 
 def resolved_growth(solution: RadialSolution, first: int | None = None) -> Growth:
@@ -92,15 +92,16 @@ def resolved_growth(solution: RadialSolution, first: int | None = None) -> Growt
     On the finest mesh, if on none: see ``settled``. Raises as :func:`growth`.
     """
     modes, law = low_modes(solution, first=first), high_frequency(solution)
-    found = _growth(modes, law)
+    found = growth_of(modes, law)
     for size in SIZES[SIZES.index(modes.size) + 1 :]:
         if found.settled:
             break
-        found = _growth(modes_on(solution, size), law)
+        found = growth_of(modes_on(solution, size), law)
     return found
 
 
-def _growth(modes: Modes, law: HighFrequency) -> Growth:
+def growth_of(modes: Modes, law: HighFrequency) -> Growth:
+    """Return the supremum from resolved modes and the law of high frequency of one flow."""
     lie = strips(law)
     highest = int(np.argmax(modes.eigenvalues.real))
     value = complex(modes.eigenvalues[highest])

@@ -57,9 +57,7 @@ class Modes:
         return int(np.searchsorted(relative, tolerance, side="right"))
 
 
-def low_modes(
-    solution: RadialSolution, tolerance: float = 1e-9, first: int | None = None
-) -> Modes:
+def low_modes(solution: RadialSolution, tolerance: float = 1e-9, first: int | None = None) -> Modes:
     """Return the modes of the first mesh that resolves six of them to a relative tolerance.
 
     Parameters

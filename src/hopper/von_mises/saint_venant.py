@@ -1,9 +1,9 @@
 """Decay of end effects in elliptic flows, as in Saint-Venant's principle.
 
-Modes lie on both sides of Re(lambda) = 0: marching in t is ill-posed, each end of the hopper carries
-half of the conditions, and what an end does dies out away from it. With modes r**(-lambda), those
-with Re(lambda) < 0 decay down the hopper, the others up. The flow rate, lambda = 0, is conserved and
-set by one end.
+Modes lie on both sides of Re(lambda) = 0: marching in t is ill-posed, each end of the hopper
+carries half of the conditions, and what an end does dies out away from it. With modes r**(-lambda),
+those with Re(lambda) < 0 decay down the hopper, the others up. The flow rate, lambda = 0, is
+conserved and set by one end.
 """
 
 from dataclasses import dataclass

@@ -147,8 +147,8 @@ def judge_solution(solution: RadialSolution, *, resolve: bool = True) -> Verdict
 def flow_limit(hopper: Hopper) -> float:
     """Return the wall friction angle (radians) up to which a radial flow exists.
 
-    There psi reaches pi/4: at the wall at mu = sin(delta), in wide cones inside and earlier. 0 where
-    not even a smooth wall has one.
+    There psi reaches pi/4: at the wall at mu = sin(delta), in wide cones inside and earlier. 0
+    where not even a smooth wall has one.
 
     Raises
     ------
@@ -230,6 +230,7 @@ def _elliptic(found: EndEffects, kind: EquationType) -> Verdict:
 
 def _hyperbolic(found: Growth, kind: EquationType) -> Verdict:
     error = max(found.error_estimate, found.bound - found.abscissa)
+    verdict: Kind
     value = f"sup Re(lambda) = {found.abscissa:.6g}, by a {found.governed_by}"
     if found.abscissa > found.error_estimate:
         verdict, reason = "unstable", value
