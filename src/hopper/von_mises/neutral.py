@@ -5,7 +5,7 @@ borders 35.26 and 60 deg of hyperbolic flow on the axis, or nowhere.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import brentq
@@ -78,15 +78,28 @@ def neutral_point(
     """
     require_angle("half_angle", half_angle)
     require_angle("friction_angle", friction_angle, zero_allowed=True)
-    size = guess.size if isinstance(guess, NeutralPoint) else None
     near = guess.delta if isinstance(guess, NeutralPoint) else guess
+    size = guess.size if isinstance(guess, NeutralPoint) else None
+    found = _near(half_angle, friction_angle, near, size) if near is not None else None
+    if found is not None:
+        return found
+    bracket = _scan(_quick(half_angle, friction_angle, None))
+    return _located(half_angle, friction_angle, bracket) if bracket else None
 
-    def quick(delta: float) -> Growth:
+
+def _near(
+    half_angle: float, friction_angle: float, guess: float, size: int | None
+) -> NeutralPoint | None:
+    """Return the neutral point next to a guess, None if there is none or it is not resolved."""
+    bracket = _around(_quick(half_angle, friction_angle, size), guess)
+    return _located(half_angle, friction_angle, bracket) if bracket else None
+
+
+def _quick(half_angle: float, friction_angle: float, size: int | None) -> Callable[[float], Growth]:
+    def at(delta: float) -> Growth:
         return growth(_flow(half_angle, friction_angle, delta), first=size)
 
-    bracket = _around(quick, near) if near is not None else None
-    bracket = bracket or _scan(quick)
-    return _located(half_angle, friction_angle, bracket) if bracket else None
+    return at
 
 
 def _flow(half_angle: float, friction_angle: float, delta: float) -> RadialSolution:
@@ -151,7 +164,8 @@ def _located(
         bracket = wider
     slope = (at(delta + _DIFFERENCE).abscissa - at(delta - _DIFFERENCE).abscissa) / 2 / _DIFFERENCE
     error = found.error_estimate / abs(slope) + _ROOT_TOLERANCE
-    return NeutralPoint(delta, friction_angle, error, found.frequency, full.settled, size)
+    settled = full.settled and not higher
+    return NeutralPoint(delta, friction_angle, error, found.frequency, settled, size)
 
 
 def _root(at: Callable[[float], Growth], bracket: tuple[float, float]) -> float:
@@ -236,7 +250,7 @@ def neutral_curve(half_angle: float, step: float, highest: float | None = None) 
         phi = last.friction_angle + current
         if highest is not None and phi > highest * (1 + 1e-12):
             break
-        found = _following(half_angle, phi, last, last.delta + slope * current)
+        found = _following(half_angle, phi, last.delta + slope * current, last.size)
         if found is None:
             current /= 2
             continue
@@ -248,10 +262,8 @@ def neutral_curve(half_angle: float, step: float, highest: float | None = None) 
     )
 
 
-def _following(
-    half_angle: float, phi: float, last: NeutralPoint, guess: float
-) -> NeutralPoint | None:
+def _following(half_angle: float, phi: float, guess: float, size: int) -> NeutralPoint | None:
     try:
-        return neutral_point(half_angle, phi, replace(last, delta=guess))
+        return _near(half_angle, phi, guess, size)
     except HopperError:
         return None

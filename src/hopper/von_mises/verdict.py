@@ -96,8 +96,8 @@ def judge(
     start : RadialSolution, optional
         A neighbour in a sweep; saves Newton steps.
     resolve : bool
-        Whether to make the test of resolution of :mod:`hopper.von_mises.growth`; without it no
-        hyperbolic flow is called stable.
+        Whether to refine hyperbolic flows until the test of resolution of
+        :mod:`hopper.von_mises.growth` settles them; without, few stable ones are called so.
 
     Raises
     ------
@@ -158,17 +158,18 @@ def flow_limit(hopper: Hopper) -> float:
     _require_von_mises(hopper)
 
     def excess(phi: float) -> float:
-        return solve_radial(hopper, phi).psi_maximum()[1] - pi / 4
+        try:
+            return solve_radial(hopper, phi).psi_maximum()[1] - pi / 4
+        except NonPositiveStressError:
+            return -pi / 4
 
     at_wall = atan(hopper.s)
     low, step = 0.0, _FIRST_STEP
-    while step > _LAST_STEP:
+    while step > _LAST_STEP and low < at_wall:
         high = min(low + step, at_wall)
         try:
             if excess(high) >= 0:
-                return float(brentq(excess, low, high, xtol=1e-12)) if high > low else at_wall
-            low = high
-        except NonPositiveStressError:
+                return float(brentq(excess, low, high, xtol=1e-12))
             low = high
         except (ConvergenceError, NoRadialSolutionError):
             step /= 2
