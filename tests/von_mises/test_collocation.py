@@ -86,6 +86,15 @@ def test_the_flow_rate_is_an_exact_mode_and_the_only_one_taken_out(index, n):
         assert abs(ratio - 1) < 1e-7
 
 
+@pytest.mark.parametrize("index", [0, 1, 2, 3])
+@pytest.mark.parametrize("n", [12, 24, 40])
+def test_modes_of_elliptic_flows_halve(index, n):
+    # Each end carries half of the conditions, and one of them the flow rate: 2 n - 1, 1, 2 n - 2.
+    found = eigenvalues(radial(*SETS[index]), n)
+    assert np.sum(found.real < 0) == 2 * n - 1
+    assert np.sum(found.real > 0) == 2 * n - 2
+
+
 def test_an_eigenvalue_zero_of_another_mode_is_kept():
     # A matrix of this structure, shifted on all but the flow rate to have a second zero.
     n = 6

@@ -112,7 +112,21 @@ def test_a_hint_saves_meshes_and_changes_nothing_else():
     assert np.all(np.abs(hinted.eigenvalues[:count] - plain.eigenvalues) < plain.errors)
 
 
+def test_a_tolerance_saves_meshes():
+    solution = radial(40, 30, 0.2)
+    rough, fine = (low_modes(solution, tolerance) for tolerance in (1e-6, 1e-10))
+    assert rough.size < fine.size
+    assert rough.resolved_to(1e-6) >= LEAST_MODES
+    assert fine.resolved_to(1e-10) >= LEAST_MODES
+    count = len(rough.eigenvalues)
+    distances = np.abs(rough.eigenvalues - fine.eigenvalues[:count])
+    assert np.all(distances < rough.errors + fine.errors[:count])
+
+
 def test_bad_input():
+    for tolerance in (0, 1e-5, float("nan"), "fine"):
+        with pytest.raises(InvalidParameterError, match=r"tolerance = .* must lie between"):
+            low_modes(radial(40, 10, 0.1), tolerance)  # type: ignore[arg-type]
     with pytest.raises(InvalidParameterError, match="size = 20 half nodes: give one of"):
         low_modes(radial(40, 10, 0.1), first=20)
     with pytest.raises(InvalidParameterError, match="size = 12 half nodes"):

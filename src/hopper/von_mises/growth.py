@@ -86,12 +86,14 @@ def growth(solution: RadialSolution, tolerance: float = 1e-9, first: int | None 
     return growth_of(modes, high_frequency(solution))
 
 
-def resolved_growth(solution: RadialSolution, first: int | None = None) -> Growth:
+def resolved_growth(
+    solution: RadialSolution, tolerance: float = 1e-9, first: int | None = None
+) -> Growth:
     """Return the supremum on the first mesh on which the test of resolution settles it.
 
     On the finest mesh, if on none: see ``settled``. Raises as :func:`growth`.
     """
-    modes, law = low_modes(solution, first=first), high_frequency(solution)
+    modes, law = low_modes(solution, tolerance, first), high_frequency(solution)
     found = growth_of(modes, law)
     for size in SIZES[SIZES.index(modes.size) + 1 :]:
         if found.settled:

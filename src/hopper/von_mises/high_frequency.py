@@ -171,20 +171,14 @@ def _lower_order(right: Numbers, flow: tuple[Array, ...], s: float) -> Numbers:
     """Return K0 r, shape (2, 4, n); flow is c, q, cot, l and h."""
     c, q, cot, l, h = flow  # noqa: E741
     m = s / sqrt(3)
-    P, Q, U, W = right.transpose(1, 0, 2)
-
-    def strain(P: Numbers, Q: Numbers, Z: Numbers) -> tuple[Numbers, Numbers]:
-        S = (c * (P - s * Z) - q / sqrt(3) * Q) / (c + m)
-        Y = -((1 + m * c) * Q + s * q * (P - s * Z)) / (2 * s * (c + m))
-        return (1 - 2 * m * c) * S + 4 * m * q * Y, Y
-
-    # Z = Z0 + Z1 / lambda.
-    Z0, Z1 = c / sqrt(12) * U, -c / sqrt(3) * cot * W
-    R0, _ = strain(P, Q, Z0)
-    R1, Y1 = strain(0 * P, 0 * Q, Z1)
+    P, Q, k, W = right.transpose(1, 0, 2)
+    # Z = Z0 + Z1 / lambda; the parts of R and Y in Z1 are of this order too.
+    Z0, Z1 = c / sqrt(12) * k, -c / sqrt(3) * cot
+    R1, Y1 = -s * (c - 2 * m) / (c + m) * Z1, s * q / (2 * (c + m)) * Z1
     return np.stack([
         -l * P - 4 * Q - 2 * s * cot * Z0,
-        -(l + cot) * Q - 3 * R0 + 2 * (P - s * Z0) + R1,
-        3 * W - 4 * sqrt(3) / c**2 * Y1,
-        -(cot - h) * W,
+        # R of leading order is k Q, as r is an eigenvector.
+        -(l + cot + 3 * k) * Q + 2 * (P - s * Z0) + R1,
+        (3 - 4 * sqrt(3) / c**2 * Y1) * W,
+        (h - cot) * W,
     ], axis=1)  # fmt: skip

@@ -7,13 +7,14 @@ finds no partner.
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import sqrt
+from math import log10, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hopper.arrays import Array, Complex
 from hopper.errors import ConvergenceError, InvalidParameterError
+from hopper.problem import is_real
 from hopper.radial.grid import half_grid
 from hopper.radial.solution import RadialSolution
 from hopper.von_mises.collocation import assemble, without_flow_rate
@@ -26,6 +27,8 @@ _FIRST = SIZES[:4]
 LEAST_MODES = 6
 # Relative error up to which a mode counts as resolved.
 _RESOLVED = 1e-6
+# Relative error that rounding allows on all but the finest meshes.
+_LEAST_TOLERANCE = 1e-10
 # Rounding of eigenvalues over n**2, the unit of rounding and the root of the cancellation in the
 # matrix; the largest of 25,000 modes of 200 random cones was 30.
 _ROUNDING = 50
@@ -65,20 +68,24 @@ def low_modes(solution: RadialSolution, tolerance: float = 1e-9, first: int | No
     solution : RadialSolution
         Of a von Mises cone.
     tolerance : float
-        Relative error of the six lowest modes with Im >= 0.
+        Relative error of the six lowest modes with Im >= 0, between 1e-10 and 1e-6.
     first : int, optional
         Size in ``SIZES`` of the first fine mesh, from a neighbour in a sweep.
 
     Raises
     ------
     InvalidParameterError
-        If the material is not von Mises, or ``first`` no size.
+        If the material is not von Mises, the tolerance out of range, or ``first`` no size.
     SingularVelocityError
         If psi reaches pi/4.
     ConvergenceError
         If the finest mesh does not resolve them.
     """
-    for size in SIZES[_index(first or _first_size(solution)) :]:
+    if not (is_real(tolerance) and _LEAST_TOLERANCE <= tolerance <= _RESOLVED):
+        raise InvalidParameterError(
+            f"tolerance = {tolerance!r} must lie between {_LEAST_TOLERANCE:g} and {_RESOLVED:g}"
+        )
+    for size in SIZES[_index(first or _first_size(solution, tolerance)) :]:
         modes = modes_on(solution, size)
         if modes.resolved_to(tolerance) >= LEAST_MODES:
             return modes
@@ -120,13 +127,15 @@ def _index(size: int) -> int:
     return SIZES.index(size)
 
 
-def _first_size(solution: RadialSolution) -> int:
+def _first_size(solution: RadialSolution, tolerance: float) -> int:
     """Guess the mesh that is fine enough; fitted to 200 random cones, off by one at most."""
     hopper = solution.hopper
     index = (
         2.3 * hopper.delta + 0.9 * hopper.half_angle + 3.3 * float(solution.psi.max())
         + solution.theta.size / 12 - 1.6
     )  # fmt: skip
+    # Each mesh gains three digits on the one before.
+    index -= log10(tolerance / 1e-9) / 3
     return SIZES[min(max(round(index), 1), len(SIZES) - 1)]
 
 

@@ -48,11 +48,20 @@ class EndEffects:
         return min(self.decay_down, self.decay_up)
 
 
-def end_effects(solution: RadialSolution, first: int | None = None) -> EndEffects:
+def end_effects(
+    solution: RadialSolution, tolerance: float = 1e-9, first: int | None = None
+) -> EndEffects:
     """Return the decay exponents of an elliptic flow.
 
     Modes beyond the resolved ones decay faster: that is so where the next points of both rays do,
     by more than the last resolved modes miss theirs by.
+
+    Parameters
+    ----------
+    solution : RadialSolution
+        Of a von Mises cone with elliptic equations.
+    tolerance, first
+        As :func:`hopper.von_mises.modes.low_modes`.
 
     Raises
     ------
@@ -61,7 +70,7 @@ def end_effects(solution: RadialSolution, first: int | None = None) -> EndEffect
     ConvergenceError
         If the modes that decay least are not resolved.
     """
-    modes, law = low_modes(solution, first=first), high_frequency(solution)
+    modes, law = low_modes(solution, tolerance, first), high_frequency(solution)
     run = rays(law)
     for size in (modes.size, *SIZES[SIZES.index(modes.size) + 1 :]):
         if size != modes.size:

@@ -134,10 +134,11 @@ def zeros(terms: list[tuple[float, float]], rates: list[float]) -> list[float]:
         return [(log(-c0 / c1) + g0 - g1) / (w1 - w0)] if c0 * c1 < 0 else []
     turning = zeros([(c * (w - w0), g) for c, g, w in rest], [w for _, _, w in rest])
 
+    # Scaled by the largest term, which keeps the sign.
     def value(x: float) -> float:
         exponents = [g + w * x for _, g, w in kept]
         top = max(exponents)
-        return sum(c * exp(e - top) for (c, _, _), e in zip(kept, exponents, strict=True))
+        return sum([c * exp(e - top) for (c, _, _), e in zip(kept, exponents, strict=True)])
 
     found = []
     points = [_beyond(kept[::-1]), *turning, _beyond(kept)]

@@ -83,6 +83,7 @@ def judge(
     friction_angle: float,
     start: RadialSolution | None = None,
     *,
+    tolerance: float = 1e-9,
     resolve: bool = True,
 ) -> Verdict:
     """Return the verdict on a von Mises cone; every valid cone has one.
@@ -95,6 +96,8 @@ def judge(
         Wall friction angle phi, radians, in [0, pi/2).
     start : RadialSolution, optional
         A neighbour in a sweep; saves Newton steps.
+    tolerance : float
+        Relative error of the six lowest modes, between 1e-10 and 1e-6.
     resolve : bool
         Whether to refine hyperbolic flows until the test of resolution of
         :mod:`hopper.von_mises.growth` settles them; without, few stable ones are called so.
@@ -102,7 +105,7 @@ def judge(
     Raises
     ------
     InvalidParameterError
-        If the friction is not valid or the material is not von Mises.
+        If the friction or the tolerance is not valid, or the material is not von Mises.
     """
     require_angle("friction_angle", friction_angle, zero_allowed=True)
     _require_von_mises(hopper)
@@ -110,7 +113,7 @@ def judge(
         return _tension(hopper)
     try:
         solution = solve_radial(hopper, friction_angle, start=start)
-        return judge_solution(solution, resolve=resolve)
+        return judge_solution(solution, tolerance=tolerance, resolve=resolve)
     except NonPositiveStressError as error:
         return Verdict("no_radial_solution", str(error))
     except (
@@ -119,7 +122,9 @@ def judge(
         return _no_flow(hopper, friction_angle, error)
 
 
-def judge_solution(solution: RadialSolution, *, resolve: bool = True) -> Verdict:
+def judge_solution(
+    solution: RadialSolution, *, tolerance: float = 1e-9, resolve: bool = True
+) -> Verdict:
     """Return the verdict on a radial flow, as :func:`judge`.
 
     Raises
@@ -135,10 +140,11 @@ def judge_solution(solution: RadialSolution, *, resolve: bool = True) -> Verdict
     kind = equation_type(solution)
     try:
         if kind.kind == "mixed":
-            return _mixed(solution, kind)
+            return _mixed(solution, kind, tolerance)
         if kind.kind == "elliptic":
-            return _elliptic(end_effects(solution), kind)
-        return _hyperbolic(resolved_growth(solution) if resolve else growth(solution), kind)
+            return _elliptic(end_effects(solution, tolerance), kind)
+        find = resolved_growth if resolve else growth
+        return _hyperbolic(find(solution, tolerance), kind)
     except ConvergenceError as error:
         return Verdict("not_converged", str(error), kind)
 
@@ -205,14 +211,14 @@ def _no_flow(hopper: Hopper, friction_angle: float, error: HopperError) -> Verdi
     return Verdict("no_radial_solution", reason, border=border)
 
 
-def _mixed(solution: RadialSolution, kind: EquationType) -> Verdict:
+def _mixed(solution: RadialSolution, kind: EquationType, tolerance: float) -> Verdict:
     where = ", ".join(f"{degrees(theta):.6g}" for theta in kind.sonic)
     reason = (
         f"elliptic core and hyperbolic ring, sonic at theta = {where} deg: marching is ill-posed, "
         "and no set of end conditions is known to fit; modes are information only"
     )
     try:
-        modes = low_modes(solution)
+        modes = low_modes(solution, tolerance)
     except ConvergenceError:
         modes = None
     return Verdict("mixed", reason, kind, modes=modes)
