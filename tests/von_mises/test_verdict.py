@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hopper.errors import InvalidParameterError, SingularVelocityError
+from hopper.errors import HopperError, InvalidParameterError, SingularVelocityError
 from hopper.problem import Hopper
 from hopper.radial.solution import solve_radial
 from hopper.von_mises import growth as growth_module
@@ -117,6 +117,24 @@ def test_bound_holds_on_finer_meshes(hopper):
     found = resolved_growth(solution)
     assert found.settled
     assert modes_on(solution, 76).eigenvalues.real.max() <= found.bound + 1e-9
+
+
+@pytest.mark.soak
+def test_bound_holds_on_finer_meshes_of_random_cones():
+    random = np.random.default_rng(21)
+    settled = 0
+    while settled < 150:
+        delta, half_angle, phi = random.uniform([35.4, 4, 0], [59, 32, 32])
+        try:
+            solution = solve_radial(cone(delta, half_angle), radians(phi))
+            found = resolved_growth(solution)
+        except HopperError:
+            continue
+        if found.settled:
+            settled += 1
+            highest = modes_on(solution, 96).eigenvalues.real.max()
+            assert highest <= found.bound + 1e-8
+            assert (max(highest, found.strips.upper_edge) > 0) == (found.abscissa > 0)
 
 
 def test_neutral():

@@ -53,8 +53,6 @@ class Coefficients:
         cot(theta), cos(2 psi) and sin(2 psi).
     l, h : array
         Slope of log sigma, and minus the slope of log u.
-    psi_slope : array
-        d psi / d theta.
     """
 
     s: float
@@ -64,7 +62,6 @@ class Coefficients:
     q: Array
     l: Array  # noqa: E741
     h: Array
-    psi_slope: Array
 
     @property
     def tilt(self) -> Array:
@@ -120,7 +117,7 @@ def coefficients(solution: RadialSolution, grids: Sequence[Grid]) -> list[Coeffi
         raise InvalidParameterError(
             "stress and velocity are coupled in von Mises materials only: use model = von-mises"
         )
-    sigma, psi, dsigma, dpsi = solution.fields_on(grids)
+    sigma, psi, dsigma, _ = solution.fields_on(grids)
     c, q = np.cos(2 * psi), np.sin(2 * psi)
     if c.min() <= 0:
         first = int(np.argmax(c <= 0))
@@ -137,7 +134,7 @@ def coefficients(solution: RadialSolution, grids: Sequence[Grid]) -> list[Coeffi
             hopper.s,
             hopper.s / sqrt(3),
             grid.cot,
-            *(a[stop - grid.size : stop] for a in (c, q, l, h, dpsi)),
+            *(a[stop - grid.size : stop] for a in (c, q, l, h)),
         )
         for grid, stop in zip(grids, stops, strict=True)
     ]

@@ -129,9 +129,12 @@ def judge_solution(
 
     Raises
     ------
+    InvalidParameterError
+        As :func:`judge`.
     SingularVelocityError
         If psi reaches pi/4.
     """
+    _require_von_mises(solution.hopper)
     if solution.hopper.delta >= TENSION:
         return _tension(solution.hopper)
     if reaches(solution, pi / 4):
