@@ -4,8 +4,8 @@ With t' = t - f(theta), modes exp(-lambda t) u = exp(-lambda t') exp(-lambda f) 
 but exp(-lambda f) u can be the smoother function. The four characteristics have slopes dt/dtheta
 whose mean is -a, a = sqrt(3) q / (2 c); with f' = -a, exp(f) = u0**(1/4), none of them turns as
 fast near psi = pi/4 as one of them does in t: with 20 half nodes errors are a hundred times smaller
-at high friction, and the same along smooth walls. At the places where a characteristic lies in t' = const the matrix has a pole, which
-the equations have not; it matters only to a node next to it.
+at high friction, and the same along smooth walls. Where a characteristic lies in t' = const the
+matrix has a pole, which the equations have not; it matters only to a node next to it.
 
 Unknowns S, Y, U, W on a half grid of n points. In the tilted time the equations of
 :mod:`hopper.von_mises.linearisation` read, for a mode, with F the right-hand sides without d/dt,
