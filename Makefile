@@ -50,22 +50,22 @@ lint: .venv/test.stamp
 
 # Are all results and logs, byte for byte, what the jobs wrote? What is not is named.
 verify: .venv/run.stamp
-	@PYTHONPATH=scripts $(BIN)/python -m publish.verify
+	@PYTHONPATH=scripts $(BIN)/python -m hopper_workflow.publish.verify
 
 report: .venv/run.stamp
-	@PYTHONPATH=scripts $(BIN)/python -m publish.report
+	@PYTHONPATH=scripts $(BIN)/python -m hopper_workflow.publish.report
 
 crate: .venv/run.stamp
-	@PYTHONPATH=scripts $(BIN)/python -m publish.crate
+	@PYTHONPATH=scripts $(BIN)/python -m hopper_workflow.publish.crate
 
 .PHONY: sbom audit
 
 sbom: .venv/test.stamp
-	@PYTHONPATH=scripts $(BIN)/python -m publish.sbom
+	@PYTHONPATH=scripts $(BIN)/python -m hopper_workflow.publish.sbom
 
 # Exit code 1 (of make: 2) for known vulnerabilities; without pip-audit or network it says so and ends with 0.
 audit: .venv/run.stamp
-	@PYTHONPATH=scripts $(BIN)/python -m publish.audit
+	@PYTHONPATH=scripts $(BIN)/python -m hopper_workflow.publish.audit
 
 # Opens results/report.html in a headless Chromium.
 test-report: .venv/test.stamp
@@ -78,7 +78,7 @@ soak: .venv/test.stamp
 
 reliability: .venv/test.stamp .venv/cluster.stamp
 	@rm -rf .reliability
-	@$(BIN)/python -m pytest -m '' $(RELIABILITY:%=tests/workflow/test_%.py) tests/slurm
+	@$(BIN)/python -m pytest -m '' tests/radial/test_coverage.py $(RELIABILITY:%=tests/workflow/test_%.py) tests/slurm
 	@$(BIN)/python -m tests.reliability > docs/reliability.md
 
 # On a SLURM of its own, which it installs and starts: Debian, root, some ten minutes.

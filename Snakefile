@@ -32,3 +32,7 @@ rule all:
     input:
         expand("figures/{figure}.{suffix}", figure=FIGURES, suffix=["png", "pdf"]),
         LEDGER,
+
+
+# Snakemake puts the folders of a module's files first on the path of its host.
+sys.path[:] = [folder for folder in sys.path if folder not in {str(ROOT), str(HERE)}]

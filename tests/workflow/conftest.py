@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 import yaml
 
-from support.logs import checksum
+from hopper_workflow.logs import checksum
 
 ROOT = Path(__file__).parents[2]
 CHECK = {"points": 1, "nodes": 80, "coarse_nodes": 40, "tolerance": 0.001}
@@ -37,16 +37,24 @@ COARSE: dict[str, Any] = {
     "friction_curves.fig_4_4.check": CHECK,
     "friction_curves.fig_4_4_30.mu.points": 8,
     "friction_curves.fig_4_4_30.check": CHECK,
+    "friction_curves.fig_4_4.second_row.points": 8,
+    "friction_curves.fig_4_4_30.second_row.points": 8,
     "stability_map.delta_deg.points": 7,
     "stability_map.phi_deg.points": 7,
     "borders.neutral_step_deg": 4,
     "borders.delta_deg.points": 5,
     "borders.check": CHECK,
+    "paper_border.frictions": 2,
+    "paper_border.delta_deg.step": 12,
+    "paper_border.width_deg": 1,
+    "paper_border.nodes": 80,
+    "paper_border.coarse_nodes": 40,
     "domain_angle.half_angles_deg": [10, 30],
     "domain_angle.neutral_step_deg": 4,
-    "domain_angle.tangency_points": 5,
     "claims.models.deltas_deg.step": 20,
     "claims.models.psi_points": 4,
+    "claims.linear.folds.half_angles_deg": [10],
+    "claims.linear.folds.deltas_deg.step": 10,
     "claims.linear.windows.points": 11,
 }
 
@@ -66,7 +74,7 @@ class Workflow:
 
     def publish(self, what: str) -> subprocess.CompletedProcess[str]:
         """Write the report or the crate."""
-        command = [sys.executable, "-m", f"publish.{what}"]
+        command = [sys.executable, "-m", f"hopper_workflow.publish.{what}"]
         environment = {**os.environ, "PYTHONPATH": str(self.path / "scripts")}
         return subprocess.run(
             command, cwd=self.path, env=environment, capture_output=True, text=True, check=False
@@ -155,9 +163,39 @@ def built(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Workflow:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not complete.exists():
             shutil.rmtree(path, ignore_errors=True)
-            copy(path).build()
+            copy(path).build(**_recording(shared / "built"))
             complete.touch()
     return Workflow(path)
+
+
+# What Python runs at start-up where it is found: at its end a job notes the modules it has loaded.
+RECORDER = """
+import atexit, os, sys
+
+def record():
+    job = vars(sys.modules["__main__"]).get("snakemake")
+    if hasattr(job, "rule"):
+        files = {getattr(m, "__file__", None) for n, m in sys.modules.items() if n[:6] == "hopper"}
+        with open(os.path.join(os.environ["LOADED_BY"], job.rule), "a") as log:
+            log.writelines(f"{os.path.relpath(file)}\\n" for file in files - {None})
+
+atexit.register(record)
+"""
+
+
+def _recording(folder: Path) -> dict[str, str]:
+    """Return variables with which jobs note what they load, in files by rule, below a folder."""
+    (folder / "recorder").mkdir(exist_ok=True)
+    (folder / "loaded").mkdir(exist_ok=True)
+    (folder / "recorder/sitecustomize.py").write_text(RECORDER, encoding="utf-8")
+    return {"PYTHONPATH": str(folder / "recorder"), "LOADED_BY": str(folder / "loaded")}
+
+
+@pytest.fixture(scope="session")
+def loaded(built: Workflow) -> dict[str, set[str]]:
+    """The project's modules, as paths, that jobs of each rule really loaded."""
+    folder = built.path.parent / "loaded"
+    return {path.name: set(path.read_text().split()) for path in folder.iterdir()}
 
 
 @pytest.fixture

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from publish import run
-from support import artifacts, logs
+from hopper_workflow import artifacts, logs
+from hopper_workflow.publish import run
 from tests.reliability import record
 
 pytestmark = pytest.mark.workflow
@@ -89,6 +89,7 @@ def test_every_fault_in_every_file_is_found(rebuilt, monkeypatch):
     )
 
 
+@pytest.mark.soak
 def test_what_is_named_is_rebuilt_and_nothing_else(built, rebuilt):
     damage = {
         "results/radial/fig_3_1.nc": truncated,

@@ -2,7 +2,7 @@
 
 import pytest
 
-from publish import run
+from hopper_workflow.publish import run
 
 pytestmark = pytest.mark.workflow
 

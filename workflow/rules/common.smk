@@ -2,13 +2,12 @@
 # Common: configuration check, and the code each rule depends on
 # =================================================================================================
 
-from support import code_graph, requests
-
-code_graph.let_scripts_import(ROOT)
 try:
     configuration.check(config, SCHEMA)
 except configuration.ConfigurationError as error:
     raise WorkflowError(str(error)) from None
+for line in configuration.bring_up_to_date(config, SCHEMA):
+    logger.warning(line)
 
 FIGURES = []
 COSTS = requests.read_costs(ROOT / "resources/benchmarks.tsv")

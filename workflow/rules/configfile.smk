@@ -3,15 +3,23 @@
 # two equal keys, and runs as a program what has the key __use_yte__
 # =================================================================================================
 
+import shlex
 import sys
 
 from snakemake.exceptions import WorkflowError
 
-sys.path = [str(ROOT / "src"), str(ROOT / "scripts"), *sys.path]
+# The host of a module keeps its sys.path.
+sys.path.append(str(ROOT / "scripts"))
+from hopper_workflow import code_graph, configuration, requests
+from hopper_workflow.claims.words import paths_of, read_claims
 
-from support import configuration
+sys.path.remove(str(ROOT / "scripts"))
 
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
+
+# Snakemake puts the interpreter into shell commands as it is: a path with a space breaks them.
+if Path(sys.executable).exists():
+    sys.executable = shlex.quote(sys.executable)
 
 # In a module the configuration is somebody else's, of which we know only our part.
 if not workflow.modifier.skip_configfile:

@@ -30,7 +30,7 @@ rule compute_transient:
         psi_scales=transient("psi_scales"),
         elapsed=transient("elapsed"),
     script:
-        "../../scripts/compute_transient.py"
+        f"{SCRIPTS}/compute_transient.py"
 
 
 rule compute_pseudospectrum:
@@ -55,7 +55,7 @@ rule compute_pseudospectrum:
         real=PSEUDO["real"],
         imag=PSEUDO["imag"],
     script:
-        "../../scripts/compute_pseudospectrum.py"
+        f"{SCRIPTS}/compute_pseudospectrum.py"
 
 
 rule compute_sensitivity:
@@ -81,7 +81,7 @@ rule compute_sensitivity:
         frequencies=config["sensitivity"]["frequencies"],
         elapsed=config["sensitivity"]["elapsed"],
     script:
-        "../../scripts/compute_sensitivity.py"
+        f"{SCRIPTS}/compute_sensitivity.py"
 
 
 rule plot_fig_4_3:
@@ -105,7 +105,7 @@ rule plot_fig_4_3:
         "../../envs/hopper.yaml"
     threads: 1
     script:
-        "../../scripts/plot_fig_4_3.py"
+        f"{SCRIPTS}/plot_fig_4_3.py"
 
 
 rule plot_fig_4_3_norms:
@@ -129,7 +129,7 @@ rule plot_fig_4_3_norms:
         "../../envs/hopper.yaml"
     threads: 1
     script:
-        "../../scripts/plot_fig_4_3_norms.py"
+        f"{SCRIPTS}/plot_fig_4_3_norms.py"
 
 
 rule plot_fig_pseudospectrum:
@@ -160,7 +160,7 @@ rule plot_fig_pseudospectrum:
         levels_log10=PSEUDO["levels_log10"],
         norms={mode: PSEUDO["modes"][mode]["norm"] for mode in PSEUDO["modes"]},
     script:
-        "../../scripts/plot_fig_pseudospectrum.py"
+        f"{SCRIPTS}/plot_fig_pseudospectrum.py"
 
 
 rule plot_fig_resolvent:
@@ -186,4 +186,4 @@ rule plot_fig_resolvent:
         "../../envs/hopper.yaml"
     threads: 1
     script:
-        "../../scripts/plot_fig_resolvent.py"
+        f"{SCRIPTS}/plot_fig_resolvent.py"
