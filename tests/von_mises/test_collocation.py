@@ -13,21 +13,10 @@ from hopper.radial.grid import half_grid
 from hopper.radial.solution import solve_radial, solve_radial_family
 from hopper.radial.velocity import solve_velocity
 from hopper.spectral import chebyshev
-from hopper.von_mises.collocation import (
-    flow_rates,
-    mode_matrix,
-    stress_rates,
-    without_flow_rate,
-)
+from hopper.von_mises.collocation import flow_rates, mode_matrix, stress_rates, without_flow_rate
 from hopper.von_mises.linearisation import coefficients
 from tests.stability.witnesses import partner_distances
-from tests.von_mises.witnesses import (
-    SETS,
-    Shooting,
-    galerkin_modes,
-    radial,
-    reference_modes,
-)
+from tests.von_mises.witnesses import SETS, Shooting, galerkin_modes, radial, reference_modes
 
 FINE = 32
 

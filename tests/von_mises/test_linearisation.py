@@ -50,11 +50,7 @@ def vanishes(expression):
 
 @pytest.mark.parametrize(
     ("number", "multiple", "form"),
-    [
-        ("2.8", sigma, MOMENTUM_R),
-        ("2.9", sigma, MOMENTUM_T),
-        ("2.10", -1, CONTINUITY),
-    ],
+    [("2.8", sigma, MOMENTUM_R), ("2.9", sigma, MOMENTUM_T), ("2.10", -1, CONTINUITY)],
 )
 def test_momentum_and_continuity(number, multiple, form):
     assert vanishes(linear_parts()[number] - multiple * form)

@@ -18,9 +18,13 @@ from typing import Literal
 import numpy as np
 from scipy.optimize import brentq
 
-from hopper.arrays import Array, Numbers
+from hopper.arguments import Fraction, Row, checked
+from hopper.arrays import Numbers
+from hopper.brief import brief
+from hopper.errors import InvalidParameterError
 from hopper.radial.solution import RadialSolution
 from hopper.spectral import chebyshev
+from hopper.values import require_equal_shapes
 
 Kind = Literal["elliptic", "hyperbolic", "mixed", "tension"]
 
@@ -55,7 +59,10 @@ class EquationType:
     sonic: tuple[float, ...] = ()
     ring_spacing: float = np.nan
 
+    __repr__ = brief("kind", "slanted", "ring_spacing")
 
+
+@checked
 def equation_type(solution: RadialSolution) -> EquationType:
     """Return the type of the equations of a radial flow, over the whole cone.
 
@@ -73,17 +80,20 @@ def equation_type(solution: RadialSolution) -> EquationType:
     return EquationType("mixed", sonic=sonic, ring_spacing=_ring_spacing(solution, sonic))
 
 
-def sonic_angle(s: float) -> float:
+@checked
+def sonic_angle(s: Fraction) -> float:
     """Return the psi (radians) at which the type changes, cos 2psi = sqrt(3) s; s = sin(delta)."""
     return float(np.arccos(min(1.0, sqrt(3) * s))) / 2
 
 
-def tangency_angle(s: float) -> float:
+@checked
+def tangency_angle(s: Fraction) -> float:
     """Return the psi (radians) at which a characteristic lies in t = const, from s = sin(delta)."""
     return float(np.arccos(min(1.0, 2 * s / sqrt(3)))) / 2
 
 
-def slopes(c: Array, q: Array, m: float) -> Numbers:
+@checked
+def slopes(c: Row, q: Row, m: Fraction) -> Numbers:
     """Return the slopes kappa, ordered as on the axis if real, shape (4, n).
 
     Real where all are. Complex ones: the last is the one with Re > 0 > Im, the third its conjugate;
@@ -95,7 +105,15 @@ def slopes(c: Array, q: Array, m: float) -> Numbers:
         cos 2psi > 0 and sin 2psi.
     m : float
         sin(delta) / sqrt(3), below 1/2.
+
+    Raises
+    ------
+    InvalidParameterError
+        If the shapes differ, or c <= 0.
     """
+    require_equal_shapes(c=c, q=q)
+    if np.any(c <= 0):
+        raise InvalidParameterError("c must be positive: the velocity is singular where it is not")
     discriminant: Numbers = (4 - c**2) * (3 * m - c) * (c + m)
     if np.any(discriminant < 0):
         discriminant = discriminant.astype(np.complex128)
@@ -114,6 +132,7 @@ def slopes(c: Array, q: Array, m: float) -> Numbers:
     return (roots - turn) / (1 + roots * turn)
 
 
+@checked
 def reaches(solution: RadialSolution, psi: float) -> bool:
     """Whether the largest psi of a flow is at least the given one, radians."""
     at_nodes = float(solution.psi.max())

@@ -26,6 +26,7 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from hopper.arguments import checked
 from hopper.arrays import Array
 from hopper.errors import InvalidParameterError
 from hopper.radial.grid import Grid, half_grid
@@ -35,6 +36,7 @@ from hopper.von_mises.linearisation import Coefficients, coefficients
 LEAST_NODES = 4
 
 
+@checked
 def mode_matrix(solution: RadialSolution, n: int) -> Array:
     """Return M of M u = lambda u on a half grid of ``n`` nodes, shape (4 n - 2, 4 n - 2).
 
@@ -55,6 +57,7 @@ def mode_matrix(solution: RadialSolution, n: int) -> Array:
     return assemble(grid, coefficients(solution, [grid])[0])
 
 
+@checked
 def assemble(grid: Grid, at: Coefficients) -> Array:
     """Return :func:`mode_matrix` on a half grid from the coefficients at its points."""
     n = grid.size
@@ -72,6 +75,7 @@ def assemble(grid: Grid, at: Coefficients) -> Array:
     return np.concatenate([lS, lY[:-1], lU, lW[:-1]])
 
 
+@checked
 def flow_rates(grid: Grid, at: Coefficients, Y: Array, U: Array, W: Array) -> tuple[Array, Array]:
     """Return lambda U and lambda W by nodal values, all of shape (n, k)."""
     a, one = at.tilt, 1 + at.tilt**2
@@ -80,8 +84,12 @@ def flow_rates(grid: Grid, at: Coefficients, Y: Array, U: Array, W: Array) -> tu
     return _rows(1 / one, FD) - _rows(a / one, FL), _rows(1 / one, FL) + _rows(a / one, FD)
 
 
+@checked
 def stress_rates(
-    grid: Grid, at: Coefficients, unknowns: tuple[Array, ...], flow: tuple[Array, Array]
+    grid: Grid,
+    at: Coefficients,
+    unknowns: tuple[Array, Array, Array, Array],
+    flow: tuple[Array, Array],
 ) -> tuple[Array, Array, Array]:
     """Return lambda S and lambda Y, shape (n, k), and F_R in the last node, shape (k,).
 
@@ -107,13 +115,23 @@ def stress_rates(
     return lS, lY, FR[-1]
 
 
+@checked
 def without_flow_rate(matrix: Array) -> Array:
     """Return the matrix of all modes but that of the flow rate, one row and column smaller.
 
     The mode is known by its eigenvector, U = 1 and the rest 0: U enters the equations by its
     differences only, so those from the wall are unknowns enough.
+
+    Raises
+    ------
+    InvalidParameterError
+        If it is not the matrix of a mesh by its shape.
     """
-    n = (len(matrix) + 2) // 4
+    n = (len(np.atleast_1d(matrix)) + 2) // 4
+    if n < LEAST_NODES or matrix.shape != (4 * n - 2, 4 * n - 2):
+        raise InvalidParameterError(
+            f"matrix has shape {matrix.shape}: give one of mode_matrix(solution, n)"
+        )
     wall = 3 * n - 2
     rest = matrix[:, _but(len(matrix), wall)].copy()
     rest[2 * n - 1 : wall] -= rest[wall]

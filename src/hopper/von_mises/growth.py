@@ -12,9 +12,11 @@ from typing import Literal
 
 import numpy as np
 
+from hopper.arguments import checked
+from hopper.brief import brief
 from hopper.radial.solution import RadialSolution
 from hopper.von_mises.high_frequency import HighFrequency, high_frequency
-from hopper.von_mises.modes import SIZES, Modes, low_modes, modes_on
+from hopper.von_mises.modes import SIZES, ResolvedModes, low_modes, modes_on
 from hopper.von_mises.strips import Strips, strips
 
 # Modes that the test looks at: no fewer than these, and two beats of the families.
@@ -29,7 +31,7 @@ class Growth:
 
     Attributes
     ----------
-    modes : Modes
+    modes : ResolvedModes
     strips : Strips
     abscissa : float
         Largest Re(lambda) of the resolved modes and the upper strip's edge.
@@ -43,13 +45,15 @@ class Growth:
         of the law of high frequency next to them; inf where too few are resolved.
     """
 
-    modes: Modes
+    modes: ResolvedModes
     strips: Strips
     abscissa: float
     governed_by: Literal["mode", "strip"]
     frequency: float
     error_estimate: float
     overshoot: float
+
+    __repr__ = brief("abscissa", "governed_by", "error_estimate", "bound")
 
     @property
     def bound(self) -> float:
@@ -63,6 +67,7 @@ class Growth:
         return unknown <= _UNKNOWN_PART * abs(self.abscissa) and not self.abscissa < 0 <= self.bound
 
 
+@checked
 def growth(solution: RadialSolution, tolerance: float = 1e-9, first: int | None = None) -> Growth:
     """Return the supremum over the low modes and the upper strip, without resolving it further.
 
@@ -86,6 +91,7 @@ def growth(solution: RadialSolution, tolerance: float = 1e-9, first: int | None 
     return growth_of(modes, high_frequency(solution))
 
 
+@checked
 def resolved_growth(
     solution: RadialSolution, tolerance: float = 1e-9, first: int | None = None
 ) -> Growth:
@@ -102,7 +108,8 @@ def resolved_growth(
     return found
 
 
-def growth_of(modes: Modes, law: HighFrequency) -> Growth:
+@checked
+def growth_of(modes: ResolvedModes, law: HighFrequency) -> Growth:
     """Return the supremum from resolved modes and the law of high frequency of one flow."""
     lie = strips(law)
     highest = int(np.argmax(modes.eigenvalues.real))
@@ -114,7 +121,7 @@ def growth_of(modes: Modes, law: HighFrequency) -> Growth:
     return Growth(modes, lie, lie.upper_edge, "strip", nan, lie.error_estimate, overshoot)
 
 
-def _overshoot(modes: Modes, lie: Strips, law: HighFrequency) -> float:
+def _overshoot(modes: ResolvedModes, lie: Strips, law: HighFrequency) -> float:
     upper = modes.eigenvalues[modes.eigenvalues.imag > 0]
     if len(lie.intervals) > 1:
         # Those nearer to the upper strip than to the next one.

@@ -20,7 +20,9 @@ from math import pi, sqrt, tan
 
 import numpy as np
 
+from hopper.arguments import ComplexRow, checked
 from hopper.arrays import Array, Complex, Numbers
+from hopper.brief import brief
 from hopper.errors import ConvergenceError
 from hopper.radial.grid import Grid, half_grid
 from hopper.radial.solution import RadialSolution
@@ -56,11 +58,17 @@ class HighFrequency:
     walls: Numbers
     error_estimate: float
 
-    def residual(self, eigenvalues: Complex) -> tuple[Complex, Complex]:
+    __repr__ = brief("phi", "gamma", "error_estimate")
+
+    @checked
+    def residual(self, eigenvalues: ComplexRow) -> tuple[Complex, Complex]:
         """Return the law's left side and its derivative over the largest term, shape (n,).
 
         For Im(lambda) > 0.
         """
+        return self._residual(eigenvalues)
+
+    def _residual(self, eigenvalues: Complex) -> tuple[Complex, Complex]:
         both = self.phi.sum(), self.gamma.sum()
         exponents = np.stack([
             np.log(self.walls[0] + 0j) + 0 * eigenvalues,
@@ -72,25 +80,26 @@ class HighFrequency:
         rates = np.array([0, self.phi[0], self.phi[1], both[0]])
         return terms.sum(axis=0), rates @ terms
 
-    def nearest_roots(self, eigenvalues: Complex) -> Complex:
+    @checked
+    def nearest_roots(self, eigenvalues: ComplexRow) -> Complex:
         """Return the root of the law next to each mode of high frequency, by Newton's iteration.
 
         NaN where there is none within the spacing of modes.
         """
-        start = np.asarray(eigenvalues, dtype=np.complex128)
-        roots, reach = start.copy(), 2 * pi / abs(self.phi[0])
+        roots, reach = eigenvalues.copy(), 2 * pi / abs(self.phi[0])
         with np.errstate(all="ignore"):
             for _ in range(_NEWTON_STEPS):
-                value, slope = self.residual(roots)
+                value, slope = self._residual(roots)
                 step = value / slope
                 # Exponentials of far-off values overflow.
                 roots -= np.where(np.abs(step) < reach, step, reach * step / np.abs(step))
                 if np.all(np.abs(step) < _ROUNDING * np.abs(roots)):
                     break
-        good = (np.abs(step) < 1e-9 * reach) & (np.abs(roots - start) < reach)
+        good = (np.abs(step) < 1e-9 * reach) & (np.abs(roots - eigenvalues) < reach)
         return np.where(good, roots, np.nan)
 
 
+@checked
 def high_frequency(solution: RadialSolution) -> HighFrequency:
     """Return the law of high frequency of an elliptic or hyperbolic flow.
 
@@ -119,6 +128,7 @@ def high_frequency(solution: RadialSolution) -> HighFrequency:
     return HighFrequency(law.phi, law.gamma, law.walls, amplified)
 
 
+@checked
 def law_on(solution: RadialSolution, grid: Grid, at: Coefficients) -> HighFrequency:
     """Return the law by quadrature on a half grid; error_estimate is that of the quadrature."""
     n, half_angle = grid.size, solution.hopper.half_angle

@@ -34,7 +34,9 @@ from math import sqrt
 
 import numpy as np
 
+from hopper.arguments import checked
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.errors import InvalidParameterError, SingularVelocityError
 from hopper.radial.grid import Grid
 from hopper.radial.solution import RadialSolution
@@ -62,6 +64,8 @@ class Coefficients:
     q: Array
     l: Array  # noqa: E741
     h: Array
+
+    __repr__ = brief("s", "c", "q", "l", "h")
 
     @property
     def tilt(self) -> Array:
@@ -95,6 +99,7 @@ class Coefficients:
         return float(self.m * q * c / (4 * (c + self.m)))
 
 
+@checked
 def coefficients(solution: RadialSolution, grids: Sequence[Grid]) -> list[Coefficients]:
     """Return the coefficients at the points of each of several half grids.
 

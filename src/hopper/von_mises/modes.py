@@ -10,13 +10,15 @@ from functools import lru_cache
 from math import log10, sqrt
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hopper.arguments import checked
 from hopper.arrays import Array, Complex
+from hopper.brief import brief
 from hopper.errors import ConvergenceError, InvalidParameterError
-from hopper.problem import is_real
 from hopper.radial.grid import half_grid
 from hopper.radial.solution import RadialSolution
+from hopper.spectral.matching import by_modulus
+from hopper.stability.modes import partner_changes
 from hopper.von_mises.collocation import assemble, without_flow_rate
 from hopper.von_mises.linearisation import Coefficients, coefficients
 
@@ -35,7 +37,7 @@ _ROUNDING = 50
 
 
 @dataclass(frozen=True)
-class Modes:
+class ResolvedModes:
     """Resolved modes but that of the flow rate, lambda = 0.
 
     Attributes
@@ -54,13 +56,19 @@ class Modes:
     errors: Array
     size: int
 
+    __repr__ = brief("eigenvalues", "errors", "size")
+
+    @checked
     def resolved_to(self, tolerance: float) -> int:
         """Return how many modes, from the lowest on, have relative errors within a tolerance."""
         relative = self.errors / np.maximum(1, np.abs(self.eigenvalues))
         return int(np.searchsorted(relative, tolerance, side="right"))
 
 
-def low_modes(solution: RadialSolution, tolerance: float = 1e-9, first: int | None = None) -> Modes:
+@checked
+def low_modes(
+    solution: RadialSolution, tolerance: float = 1e-9, first: int | None = None
+) -> ResolvedModes:
     """Return the modes of the first mesh that resolves six of them to a relative tolerance.
 
     Parameters
@@ -81,7 +89,7 @@ def low_modes(solution: RadialSolution, tolerance: float = 1e-9, first: int | No
     ConvergenceError
         If the finest mesh does not resolve them.
     """
-    if not (is_real(tolerance) and _LEAST_TOLERANCE <= tolerance <= _RESOLVED):
+    if not _LEAST_TOLERANCE <= tolerance <= _RESOLVED:
         raise InvalidParameterError(
             f"tolerance = {tolerance!r} must lie between {_LEAST_TOLERANCE:g} and {_RESOLVED:g}"
         )
@@ -95,30 +103,21 @@ def low_modes(solution: RadialSolution, tolerance: float = 1e-9, first: int | No
     )
 
 
-def modes_on(solution: RadialSolution, size: int) -> Modes:
+@checked
+def modes_on(solution: RadialSolution, size: int) -> ResolvedModes:
     """Return the modes that a mesh of ``SIZES``, not the first, and the one before agree on.
 
     Errors as :func:`low_modes`.
     """
     before = SIZES[_index(size) - 1]
     coarse, fine = _eigenvalues(solution, before), _eigenvalues(solution, size)
-    scale = np.maximum(1, np.abs(fine))
-    distance = np.abs(fine[:, None] - coarse)
-    partner = distance.argmin(axis=1)
-    change = np.maximum.accumulate(distance.min(axis=1) / scale)
+    change = np.maximum.accumulate(partner_changes(fine, coarse))
     cancellation = coefficients_on(solution, size).cancellation
     rounding = _ROUNDING * np.finfo(float).eps * size**2 * sqrt(cancellation)
     error = change + rounding
-    failed = (error > _RESOLVED) | _taken(partner)
-    count = int(failed.argmax()) if failed.any() else fine.size
-    return Modes(fine[:count], (error * scale)[:count], size)
-
-
-def _taken(partner: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Whether an earlier mode has the same partner."""
-    taken = np.ones(partner.size, dtype=np.bool_)
-    taken[np.unique(partner, return_index=True)[1]] = False
-    return taken
+    count = int(np.searchsorted(error, _RESOLVED, side="right"))
+    kept = fine[:count]
+    return ResolvedModes(kept, error[:count] * np.maximum(1, np.abs(kept)), size)
 
 
 def _index(size: int) -> int:
@@ -145,12 +144,12 @@ def _eigenvalues(solution: RadialSolution, size: int) -> Complex:
     grid = half_grid(size, solution.hopper.half_angle)
     matrix = without_flow_rate(assemble(grid, coefficients_on(solution, size)))
     values = np.linalg.eigvals(matrix).astype(np.complex128)
-    upper = values[values.imag >= 0]
-    upper = upper[np.argsort(np.abs(upper), kind="stable")]
+    upper = by_modulus(values[values.imag >= 0])
     upper.flags.writeable = False
     return upper
 
 
+@checked
 def coefficients_on(solution: RadialSolution, size: int) -> Coefficients:
     """Return the coefficients on a half grid."""
     sizes = _FIRST if size in _FIRST else (size,)

@@ -10,10 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
+from hopper.arguments import Positive, Radians, checked
 from hopper.arrays import Array, Mask
-from hopper.errors import ConvergenceError, HopperError, InvalidParameterError
-from hopper.problem import Hopper, is_real, require_angle
+from hopper.brief import brief
+from hopper.errors import ConvergenceError, HopperError
+from hopper.problem import Hopper
 from hopper.radial.solution import RadialSolution, solve_radial
+from hopper.values import require_angle
 from hopper.von_mises.characteristics import AXIS_HYPERBOLIC, TENSION
 from hopper.von_mises.growth import Growth, growth, growth_of, resolved_growth
 from hopper.von_mises.high_frequency import high_frequency
@@ -33,7 +36,7 @@ _SAME = 1e-8
 
 
 @dataclass(frozen=True)
-class NeutralPoint:
+class NeutralDelta:
     """A delta at which sup Re(lambda) = 0; angles in radians.
 
     Attributes
@@ -56,18 +59,21 @@ class NeutralPoint:
     settled: bool
     size: int
 
+    __repr__ = brief("delta deg", "friction_angle deg", "error_estimate deg", "frequency")
 
+
+@checked
 def neutral_point(
-    half_angle: float, friction_angle: float, guess: NeutralPoint | float | None = None
-) -> NeutralPoint | None:
+    half_angle: Radians, friction_angle: Radians, guess: Radians | None = None
+) -> NeutralDelta | None:
     """Return the neutral delta at a given wall friction, None if there is none.
 
     Parameters
     ----------
     half_angle, friction_angle : float
         theta_w and phi, radians.
-    guess : NeutralPoint or float, optional
-        A neighbour on the curve, or a delta (radians) close to the answer.
+    guess : float, optional
+        A delta (radians) close to the answer.
 
     Raises
     ------
@@ -78,9 +84,9 @@ def neutral_point(
     """
     require_angle("half_angle", half_angle)
     require_angle("friction_angle", friction_angle, zero_allowed=True)
-    near = guess.delta if isinstance(guess, NeutralPoint) else guess
-    size = guess.size if isinstance(guess, NeutralPoint) else None
-    found = _near(half_angle, friction_angle, near, size) if near is not None else None
+    if guess is not None:
+        require_angle("guess", guess)
+    found = None if guess is None else _near(half_angle, friction_angle, guess, None)
     if found is not None:
         return found
     bracket = _scan(_quick(half_angle, friction_angle, None))
@@ -89,7 +95,7 @@ def neutral_point(
 
 def _near(
     half_angle: float, friction_angle: float, guess: float, size: int | None
-) -> NeutralPoint | None:
+) -> NeutralDelta | None:
     """Return the neutral point next to a guess, None if there is none or it is not resolved."""
     bracket = _around(_quick(half_angle, friction_angle, size), guess)
     return _located(half_angle, friction_angle, bracket) if bracket else None
@@ -141,7 +147,7 @@ def _scan(at: Callable[[float], Growth]) -> tuple[float, float] | None:
 
 def _located(
     half_angle: float, friction_angle: float, bracket: tuple[float, float]
-) -> NeutralPoint:
+) -> NeutralDelta:
     """Find the root on one mesh, and again on finer ones where those show higher modes."""
     middle = _flow(half_angle, friction_angle, sum(bracket) / 2)
     size = low_modes(middle).size
@@ -165,7 +171,7 @@ def _located(
     slope = (at(delta + _DIFFERENCE).abscissa - at(delta - _DIFFERENCE).abscissa) / 2 / _DIFFERENCE
     error = found.error_estimate / abs(slope) + _ROOT_TOLERANCE
     settled = full.settled and not higher
-    return NeutralPoint(delta, friction_angle, error, found.frequency, settled, size)
+    return NeutralDelta(delta, friction_angle, error, found.frequency, settled, size)
 
 
 def _root(at: Callable[[float], Growth], bracket: tuple[float, float]) -> float:
@@ -194,7 +200,7 @@ def _on_mesh(half_angle: float, friction_angle: float, size: int) -> Callable[[f
 
 
 @dataclass(frozen=True)
-class NeutralCurve:
+class NeutralBorder:
     """Points of the neutral curve from the smooth wall on, arrays of shape (n,).
 
     Attributes
@@ -213,8 +219,13 @@ class NeutralCurve:
     frequency: Array
     settled: Mask
 
+    __repr__ = brief("friction_angle deg", "delta deg", "settled")
 
-def neutral_curve(half_angle: float, step: float, highest: float | None = None) -> NeutralCurve:
+
+@checked
+def neutral_curve(
+    half_angle: Radians, step: Positive, highest: Radians | None = None
+) -> NeutralBorder:
     """Trace the neutral curve from phi = 0 to its end, by continuation in phi.
 
     It ends where no flow is stable, or none exists, or none is resolved; the last is found to
@@ -236,8 +247,8 @@ def neutral_curve(half_angle: float, step: float, highest: float | None = None) 
     ConvergenceError
         If not even the smooth wall has a neutral delta.
     """
-    if not (is_real(step) and 0 < step < np.inf):
-        raise InvalidParameterError(f"step = {step!r} must be a positive number, in radians")
+    if highest is not None:
+        require_angle("highest", highest, zero_allowed=True)
     first = neutral_point(half_angle, 0.0)
     if first is None:
         raise ConvergenceError(
@@ -257,12 +268,12 @@ def neutral_curve(half_angle: float, step: float, highest: float | None = None) 
         slope = (found.delta - last.delta) / current
         points.append(found)
         current = min(2 * current, step)
-    return NeutralCurve(
-        *(np.array([getattr(p, name) for p in points]) for name in NeutralCurve.__annotations__)
+    return NeutralBorder(
+        *(np.array([getattr(p, name) for p in points]) for name in NeutralBorder.__annotations__)
     )
 
 
-def _following(half_angle: float, phi: float, guess: float, size: int) -> NeutralPoint | None:
+def _following(half_angle: float, phi: float, guess: float, size: int) -> NeutralDelta | None:
     try:
         return _near(half_angle, phi, guess, size)
     except HopperError:

@@ -11,11 +11,13 @@ from math import inf
 
 import numpy as np
 
+from hopper.arguments import checked
 from hopper.arrays import Array, Complex
+from hopper.brief import brief
 from hopper.errors import ConvergenceError
 from hopper.radial.solution import RadialSolution
 from hopper.von_mises.high_frequency import HighFrequency, high_frequency
-from hopper.von_mises.modes import SIZES, Modes, low_modes, modes_on
+from hopper.von_mises.modes import SIZES, ResolvedModes, low_modes, modes_on
 from hopper.von_mises.strips import Rays, rays
 
 _TESTED = 3
@@ -27,7 +29,7 @@ class EndEffects:
 
     Attributes
     ----------
-    modes : Modes
+    modes : ResolvedModes
     rays : Rays
         Where the modes of high frequency lie.
     decay_down, decay_up : float
@@ -36,11 +38,13 @@ class EndEffects:
         Of both, absolute.
     """
 
-    modes: Modes
+    modes: ResolvedModes
     rays: Rays
     decay_down: float
     decay_up: float
     error_estimate: float
+
+    __repr__ = brief("decay_down", "decay_up", "error_estimate")
 
     @property
     def gap(self) -> float:
@@ -48,6 +52,7 @@ class EndEffects:
         return min(self.decay_down, self.decay_up)
 
 
+@checked
 def end_effects(
     solution: RadialSolution, tolerance: float = 1e-9, first: int | None = None
 ) -> EndEffects:
@@ -88,7 +93,7 @@ def end_effects(
     )
 
 
-def _beyond(modes: Modes, run: Rays, law: HighFrequency) -> Array:
+def _beyond(modes: ResolvedModes, run: Rays, law: HighFrequency) -> Array:
     """Return the least abs(Re(lambda)) beyond the resolved modes on both rays, shape (2,)."""
     least = np.zeros(2)
     for i, (start, step) in enumerate(zip(run.start, run.step, strict=True)):

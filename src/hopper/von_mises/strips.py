@@ -14,6 +14,7 @@ Along smooth walls A F = B C, and each strip is a line.
 Elliptic flows: Phi is complex, and the roots lie on rays.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import exp, inf, log, pi
@@ -21,8 +22,10 @@ from math import exp, inf, log, pi
 import numpy as np
 from scipy.optimize import brentq
 
+from hopper.arguments import checked
 from hopper.arrays import Array, Complex
-from hopper.errors import ConvergenceError
+from hopper.brief import brief
+from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.von_mises.high_frequency import HighFrequency
 
 
@@ -44,12 +47,15 @@ class Strips:
     spacing: Array
     error_estimate: float
 
+    __repr__ = brief("upper_edge", "spacing", "error_estimate")
+
     @property
     def upper_edge(self) -> float:
         """Supremum of Re(lambda) at high frequency."""
         return float(self.intervals[-1, 1])
 
 
+@checked
 def strips(law: HighFrequency) -> Strips:
     """Return the strips of a hyperbolic flow.
 
@@ -68,7 +74,7 @@ def strips(law: HighFrequency) -> Strips:
                 (a, 0.0), (sign_b * c, gamma_b), (sign_a * b, gamma_a),
                 (sign_a * sign_b * f, gamma_a + gamma_b),
             ]  # fmt: skip
-            edges += zeros(terms, rates)
+            edges += _zeros(terms, rates)
     if len(edges) < 2 or len(edges) % 2:
         raise ConvergenceError(
             f"strips of high frequency not resolved: {len(edges)} edges; change delta slightly"
@@ -78,6 +84,7 @@ def strips(law: HighFrequency) -> Strips:
     return Strips(intervals, 2 * pi / law.phi, error)
 
 
+@checked
 def lines(law: HighFrequency) -> Array:
     """Return Re(lambda) = -Gamma / Phi of the lines of families a and b along a smooth wall."""
     return -law.gamma / law.phi
@@ -94,12 +101,15 @@ class Rays:
     start: Complex
     step: Complex
 
+    __repr__ = brief("slope")
+
     @property
     def slope(self) -> float:
         """|Re / Im| of lambda along the rays."""
         return float(abs(self.step[0].real / self.step[0].imag))
 
 
+@checked
 def rays(law: HighFrequency) -> Rays:
     """Return the rays of an elliptic flow.
 
@@ -112,7 +122,8 @@ def rays(law: HighFrequency) -> Rays:
     return Rays(start.astype(np.complex128), 2j * pi / phi)
 
 
-def zeros(terms: list[tuple[float, float]], rates: list[float]) -> list[float]:
+@checked
+def zeros(terms: Sequence[tuple[float, float]], rates: Sequence[float]) -> list[float]:
     """Return the real zeros of sum c_k exp(g_k + w_k x), by increasing x.
 
     Between zeros of the derivative of the sum over its first exponential, itself a sum of one term
@@ -124,7 +135,18 @@ def zeros(terms: list[tuple[float, float]], rates: list[float]) -> list[float]:
         Factors, and what is added to the exponents.
     rates : list of w_k
         Increasing.
+
+    Raises
+    ------
+    InvalidParameterError
+        If they differ in number.
     """
+    if len(terms) != len(rates):
+        raise InvalidParameterError("terms and rates differ in number: give one rate for each term")
+    return _zeros(terms, rates)
+
+
+def _zeros(terms: Sequence[tuple[float, float]], rates: Sequence[float]) -> list[float]:
     kept = [(c, g, w) for (c, g), w in zip(terms, rates, strict=True) if c != 0]
     if len(kept) < 2:
         return []
@@ -132,7 +154,7 @@ def zeros(terms: list[tuple[float, float]], rates: list[float]) -> list[float]:
     if len(kept) == 2:
         (c1, g1, w1) = rest[0]
         return [(log(-c0 / c1) + g0 - g1) / (w1 - w0)] if c0 * c1 < 0 else []
-    turning = zeros([(c * (w - w0), g) for c, g, w in rest], [w for _, _, w in rest])
+    turning = _zeros([(c * (w - w0), g) for c, g, w in rest], [w for _, _, w in rest])
 
     # Scaled by the largest term, which keeps the sign.
     def value(x: float) -> float:

@@ -7,6 +7,8 @@ from typing import Literal
 
 from scipy.optimize import brentq
 
+from hopper.arguments import AnyFloat, checked
+from hopper.brief import brief
 from hopper.errors import (
     ConvergenceError,
     HopperError,
@@ -16,11 +18,12 @@ from hopper.errors import (
     SingularVelocityError,
     WallFrictionError,
 )
-from hopper.problem import Hopper, require_angle
+from hopper.problem import Hopper
 from hopper.radial.solution import RadialSolution, solve_radial
+from hopper.values import require_angle
 from hopper.von_mises.characteristics import TENSION, EquationType, equation_type, reaches
 from hopper.von_mises.growth import Growth, growth, resolved_growth
-from hopper.von_mises.modes import Modes, low_modes
+from hopper.von_mises.modes import ResolvedModes, low_modes
 from hopper.von_mises.saint_venant import EndEffects, end_effects
 from hopper.yield_conditions import VON_MISES
 
@@ -52,7 +55,7 @@ class Verdict:
         Of hyperbolic flows: modes, strips and their supremum.
     end_effects : EndEffects or None
         Of elliptic flows: modes, rays and decay exponents.
-    modes : Modes or None
+    modes : ResolvedModes or None
         Resolved modes, of mixed flows as information only.
     abscissa : float
         sup Re(lambda) but for the flow rate, of hyperbolic flows; else NaN.
@@ -67,10 +70,12 @@ class Verdict:
     type: EquationType | None = None
     growth: Growth | None = None
     end_effects: EndEffects | None = None
-    modes: Modes | None = None
+    modes: ResolvedModes | None = None
     abscissa: float = nan
     error_estimate: float = nan
     border: float = nan
+
+    __repr__ = brief("verdict", "abscissa", "error_estimate")
 
     @property
     def slanted(self) -> bool:
@@ -78,9 +83,10 @@ class Verdict:
         return self.type is not None and self.type.slanted
 
 
+@checked
 def judge(
     hopper: Hopper,
-    friction_angle: float,
+    friction_angle: AnyFloat,
     start: RadialSolution | None = None,
     *,
     tolerance: float = 1e-9,
@@ -122,6 +128,7 @@ def judge(
         return _no_flow(hopper, friction_angle, error)
 
 
+@checked
 def judge_solution(
     solution: RadialSolution, *, tolerance: float = 1e-9, resolve: bool = True
 ) -> Verdict:
@@ -152,6 +159,7 @@ def judge_solution(
         return Verdict("not_converged", str(error), kind)
 
 
+@checked
 @lru_cache(maxsize=256)
 def flow_limit(hopper: Hopper) -> float:
     """Return the wall friction angle (radians) up to which a radial flow exists.
