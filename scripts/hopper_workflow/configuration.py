@@ -40,7 +40,7 @@ def check_file(path: str | Path, schema_path: str | Path) -> None:
 
 
 def check(config: Mapping[str, Any], schema_path: str | Path) -> None:
-    """Validate a configuration.
+    """Validate a configuration; what has a default may be left out.
 
     Raises
     ------
@@ -49,7 +49,9 @@ def check(config: Mapping[str, Any], schema_path: str | Path) -> None:
         that contradict each other.
     """
     require_schema(config, schema_path)
-    for key, problem in relations.violations(config):
+    whole = copy.deepcopy(dict(config))
+    bring_up_to_date(whole, schema_path)
+    for key, problem in relations.violations(whole):
         raise ConfigurationError(f"config key '{key}': {problem}")
 
 

@@ -8,7 +8,7 @@ from hopper_workflow.publish import run
 STYLESHEET = Path(__file__).parents[3] / "workflow/report/report.css"
 
 
-def write_report(path: Path) -> None:
+def write_report(path: Path, configuration: Path | None) -> None:
     """Write Snakemake's report of the finished run.
 
     Raises
@@ -16,9 +16,10 @@ def write_report(path: Path) -> None:
     RunError
         If there is no finished run; an older report stays as it is.
     """
-    run.products()
+    run.products(configuration)
     with replacing(path) as temporary:
-        run.snakemake("--report", str(temporary), "--report-stylesheet", str(STYLESHEET))
+        options = ["--report", str(temporary), "--report-stylesheet", str(STYLESHEET)]
+        run.snakemake(configuration, *options)
 
 
 if __name__ == "__main__":
