@@ -38,8 +38,11 @@ STYLE = Path(__file__).with_name("paper.mplstyle")
 def subplots(
     rows: int = 1, columns: int = 1, *, width: float = PAGE_WIDTH, height: float = 2.6, **more: Any
 ) -> tuple[Figure, Any]:
-    """Return a figure and its axes in the style of the paper; sizes in inches."""
-    plt.style.use(STYLE)
+    """Return a figure and its axes in the style of the paper; sizes in inches.
+
+    The style lies on Matplotlib's defaults, whatever a matplotlibrc of the user says.
+    """
+    plt.style.use(["default", STYLE])
     figure, axes = plt.subplots(rows, columns, figsize=(width, height), **more)
     return figure, axes
 

@@ -1,8 +1,11 @@
 """The command's plots."""
 
+import os
 from pathlib import Path
 
-import matplotlib
+os.environ["MPLBACKEND"] = "Agg"  # with one that it does not know Matplotlib does not load
+
+from matplotlib import style
 from matplotlib.figure import Figure
 
 from hopper.assessment.radial import RadialAssessment
@@ -30,7 +33,7 @@ _METADATA: dict[str, dict[str, None]] = {
 
 def write(path: Path, case: Case, found: Part) -> None:
     """Plot the fields, or the spectrum."""
-    with matplotlib.rc_context(_STYLE):
+    with style.context(["default", _STYLE]):
         if isinstance(found, RadialAssessment):
             figure = Figure(figsize=(7.1, 2.6), layout="constrained")
             known = assessments.profiles(found)
