@@ -20,6 +20,8 @@ rule compute_friction_curve:
         "logs/compute_friction_curve/{figure}_{geometry}.log",
     benchmark:
         "logs/compute_friction_curve/{figure}_{geometry}.benchmark.tsv"
+    wildcard_constraints:
+        figure=targets.words(config["friction_curves"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1
@@ -187,7 +189,7 @@ rule plot_fig_4_4:
     benchmark:
         "logs/plot_fig_4_4/{figure}.benchmark.tsv"
     wildcard_constraints:
-        figure="fig_4_4(_30)?",
+        figure=targets.words(config["friction_curves"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1

@@ -15,6 +15,8 @@ rule solve_radial:
         "logs/solve_radial/{figure}.log",
     benchmark:
         "logs/solve_radial/{figure}.benchmark.tsv"
+    wildcard_constraints:
+        figure=targets.words(config["radial"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1

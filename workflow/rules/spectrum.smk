@@ -15,6 +15,8 @@ rule compute_spectrum:
         "logs/compute_spectrum/{figure}_{geometry}_{nodes}.log",
     benchmark:
         "logs/compute_spectrum/{figure}_{geometry}_{nodes}.benchmark.tsv"
+    wildcard_constraints:
+        figure=targets.words(config["spectra"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1
@@ -40,6 +42,8 @@ rule filter_spectrum:
         "logs/filter_spectrum/{figure}_{geometry}.log",
     benchmark:
         "logs/filter_spectrum/{figure}_{geometry}.benchmark.tsv"
+    wildcard_constraints:
+        figure=targets.words(config["spectra"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1
@@ -65,6 +69,8 @@ rule compute_exact_spectrum:
         "logs/compute_exact_spectrum/{figure}_{geometry}.log",
     benchmark:
         "logs/compute_exact_spectrum/{figure}_{geometry}.benchmark.tsv"
+    wildcard_constraints:
+        figure=targets.words(config["spectra"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1
@@ -87,6 +93,8 @@ rule compute_stability:
         "logs/compute_stability/{figure}_{geometry}.log",
     benchmark:
         "logs/compute_stability/{figure}_{geometry}.benchmark.tsv"
+    wildcard_constraints:
+        figure=targets.words(config["spectra"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1

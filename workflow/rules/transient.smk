@@ -19,6 +19,8 @@ rule compute_transient:
         "logs/compute_transient/{figure}_{geometry}.log",
     benchmark:
         "logs/compute_transient/{figure}_{geometry}.benchmark.tsv"
+    wildcard_constraints:
+        figure=targets.words(config["transient"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1
