@@ -11,9 +11,7 @@
 
 PYTHON ?= python3
 BIN := .venv/bin
-# Into .venv, wherever the user's pip is told to put packages.
-HERE := --no-user --target "" --prefix "" --root ""
-PIP := $(BIN)/python -m pip install -qq --disable-pip-version-check $(HERE) --require-hashes --no-build-isolation
+PIP := $(BIN)/python -m pip install -qq --disable-pip-version-check --no-user --require-hashes --no-build-isolation
 # The configuration of a run with --configfile or CONFIG, which left it there.
 RECORD := results/configuration.yaml
 ifneq ($(origin CONFIG), command line)
@@ -132,10 +130,11 @@ clean:
 	@$(PYTHON) -c 'import sys; sys.version_info >= (3, 11) or sys.exit("Python 3.11 or newer is needed: make PYTHON=...")'
 	@echo "Setting up .venv from requirements.lock (about a minute)"
 	@$(PYTHON) -m venv .venv
+	@elsewhere=$$($(BIN)/python -m pip config list | grep -E '[.](target|prefix|root|python|dry-run)=' | tr '\n' ' '); \
+	  test -z "$$elsewhere" || { echo "pip is configured to install elsewhere: leave out $$elsewhere" >&2; exit 1; }
 	@$(PIP) -r requirements-build.lock
 	@$(PIP) -r requirements.lock
-	@$(BIN)/python -m pip install -qq --disable-pip-version-check $(HERE) --no-deps --no-build-isolation -e .
-	@$(BIN)/python -Ic 'import hopper, snakemake' || { echo 'pip installed elsewhere: look at "pip config list"' >&2; exit 1; }
+	@$(BIN)/python -m pip install -qq --disable-pip-version-check --no-user --no-deps --no-build-isolation -e .
 	@touch $@
 
 # cffconvert brings the schema of CITATION.cff; what it needs itself is too old for the other tools.
