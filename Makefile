@@ -28,6 +28,11 @@ unexport $(filter-out PYTHONDONTWRITEBYTECODE PYTHONPYCACHEPREFIX PYTHONUNBUFFER
     SOURCE_DATE_EPOCH% GLIBC_TUNABLES%, $(.VARIABLES)))
 export PYTHONUTF8 := 1
 export OPENBLAS_NUM_THREADS := 1
+# Snakemake asks for its user's name and keeps caches at home: a container may have neither.
+export LOGNAME ?= nobody
+ifneq ($(shell test -w "$${HOME:-/none}" && echo yes),yes)
+export HOME := $(CURDIR)/.venv/home
+endif
 
 # Goals in the order given, also with -j: Snakemake runs jobs side by side.
 .NOTPARALLEL:
