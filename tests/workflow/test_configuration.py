@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import yaml
 
-from hopper_workflow import artifacts, configuration
+from hopper_workflow import artifacts, configuration, strict_yaml
 from hopper import Hopper, solve_radial
 from tests.workflow.conftest import ROOT
 
@@ -72,7 +72,7 @@ def test_a_missing_key_is_named(config):
 
 def test_what_an_older_configuration_lacks_or_need_not_have(config):
     shipped = copy.deepcopy(config)
-    del config["claims"]["linear"]["folds"]
+    del config["claims"], config["borders"]["check"]
     config["domain_angle"]["tangency_points"] = 25
     configuration.check(config, SCHEMA)
     assert configuration.bring_up_to_date(config, SCHEMA) == [
@@ -81,6 +81,24 @@ def test_what_an_older_configuration_lacks_or_need_not_have(config):
     ]
     assert config == shipped
     assert configuration.bring_up_to_date(config, SCHEMA) == []
+
+
+NAME = "abcdefghijklmnopqrstuvwxyz012345"
+
+
+def test_as_many_hoppers_as_the_schema_allows_can_be_read(config, tmp_path):
+    longest = {"description": "é" * 120, "delta_deg": 40.123456, "half_angle_deg": 20.123456}
+    config["cases"] = [
+        {**config["cases"][0], **longest, "name": f"case_{count}_{NAME}"}
+        for count in range(100, 300)
+    ]
+    path = tmp_path / "config.yaml"
+    path.write_text(yaml.safe_dump(config, allow_unicode=True), encoding="utf-8")
+    configuration.check_file(path, SCHEMA)
+    configuration.check(strict_yaml.read(path), SCHEMA)
+    path.write_text(path.read_text(encoding="utf-8") + "#" * 80_000, encoding="utf-8")
+    with pytest.raises(configuration.ConfigurationError, match="has more than 80000 characters"):
+        configuration.check_file(path, SCHEMA)
 
 
 @pytest.mark.workflow
