@@ -95,7 +95,7 @@ test-report: .venv/test.stamp
 	@HOPPER_REPORT=results/report.html $(BIN)/python -m pytest tests/workflow/test_browser.py
 
 # The long tests of reliability, and what all tests of it find as a page.
-RELIABILITY := artifacts corruption interruptions mutated_configurations processors supply_chain
+RELIABILITY := artifacts corruption interruptions mutated_configurations processors supply_chain surroundings
 soak: .venv/test.stamp
 	@$(BIN)/python -m pytest -m soak
 

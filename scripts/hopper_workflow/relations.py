@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from math import atan, radians
 from typing import Any
 
-from hopper.errors import WallFrictionError
+from hopper.errors import InvalidParameterError, WallFrictionError
 from hopper.yield_conditions import yield_condition
 
 Violation = tuple[str, str]
@@ -117,3 +117,5 @@ def _wall(
         yield_condition(model).wall_angle(radians(delta_deg), atan(mu))
     except WallFrictionError as error:
         yield f"{key}.{at}", str(error)
+    except InvalidParameterError as error:  # an angle so small that it is none in radians
+        yield f"{key}.delta_deg", str(error)

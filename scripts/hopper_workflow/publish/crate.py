@@ -63,8 +63,8 @@ def write_crate(path: Path, configuration: Path | None) -> None:
         WORKFLOW, WORKFLOW, main=True, lang="snakemake", properties=_properties(WORKFLOW)
     )
     _describe(crate, workflow, strict_yaml.read_own(CITATION), finished)
-    _add_files(crate, [file for file in _files_below(CODE) if file not in data])
-    _add_files(crate, sorted(Path("logs").rglob("*.log")))
+    code = [file for file in _files_below(CODE) if file not in data]
+    _add_files(crate, [*code, *sorted(Path("logs").rglob("*.log"))])
     crate.get("README.md")["about"] = crate.root_dataset
     files = _add_files(crate, [*data, *made])
     files[CONFIGURATION] = _add_configuration(crate, configuration)
@@ -77,7 +77,7 @@ def write_crate(path: Path, configuration: Path | None) -> None:
         outputs[file.parts[0]].append(files[file])
     for end, found in (("input", inputs), ("output", dict(sorted(outputs.items())))):
         workflow[end] = [_parameter(crate, name, values) for name, values in found.items()]
-    action = crate.add_action(
+    crate.root_dataset["mentions"] = crate.add_action(
         workflow,
         identifier="#run",
         object=[file for values in inputs.values() for file in values],
@@ -88,7 +88,6 @@ def write_crate(path: Path, configuration: Path | None) -> None:
             "endTime": finished,
         },
     )
-    crate.root_dataset["mentions"] = action
     with replacing(path) as temporary:
         crate.write_zip(temporary)
         _settle(temporary, latest)
