@@ -6,15 +6,15 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from hopper_workflow import artifacts, jobs, kept_modes, ranges
+from hopper_workflow import artifacts, jobs, kept_modes
 from hopper.spectral.schur import schur_form
 from hopper.spectral.sensitivity import (
     kept_condition_numbers,
     kept_form,
     kept_sensitivity,
-    resolvent_norm,
+    resolvent_curves,
 )
-from hopper.spectral.transient import abscissa, condition_number, propagator_norm
+from hopper.spectral.transient import condition_number, growth_curves
 from hopper.stability.paper_matrix import half_matrix
 from hopper.stability.transient import Norm, half_weights, modal_basis
 from hopper_data.datasets import dataset
@@ -44,7 +44,10 @@ def compute_sensitivity(
     }
     bases = [modal_basis(solution, nodes, h, values, norm, psi_scale) for h, values in kept.items()]
     measures = kept_sensitivity(bases)
-    y, times = ranges.spaced(0, **frequencies), ranges.spaced(0, **elapsed)
+    times, (growth,) = growth_curves([bases], 0, elapsed["stop"], elapsed["points"])
+    y, (resolvent_kept, resolvent) = resolvent_curves(
+        [[kept_form(bases)], list(forms.values())], frequencies["stop"], frequencies["points"]
+    )
     result: dict[str, Any] = {
         "eigenvalue": np.concatenate(list(kept.values())),
         "half": np.repeat(list(kept), [values.size for values in kept.values()]),
@@ -53,9 +56,9 @@ def compute_sensitivity(
         ),
         "basis_condition": condition_number(bases),
         "measures": measures,
-        "relative_growth": propagator_norm(bases, times) * np.exp(-abscissa(bases) * times),
-        "resolvent_kept": resolvent_norm([kept_form(bases)], y),
-        "resolvent": resolvent_norm(list(forms.values()), y),
+        "relative_growth": growth,
+        "resolvent_kept": resolvent_kept,
+        "resolvent": resolvent,
         "frequency": y,
         "elapsed": times,
     }

@@ -2,8 +2,6 @@
 # Hoppers of one's own: the list `cases` of the configuration
 # =================================================================================================
 
-FIGURES += [f"case_{case['name']}" for case in config["cases"]]
-
 
 rule compute_case:
     input:

@@ -2,19 +2,12 @@
 # The verdict: what the paper claims, held against the artifacts
 # =================================================================================================
 
-CLAIMS = code_graph.relative(ROOT / "resources/claims.yaml")
-CLAIMS_SCHEMA = code_graph.relative(ROOT / "workflow/schemas/claims.schema.yaml")
 TEMPLATES = {
     kind: code_graph.relative(ROOT / f"workflow/report/claims.{kind}.j2") for kind in ["html", "md"]
 }
 LEDGER = ["results/claims.csv", "results/claims.html"]
 HOPPER = config["radial"]["fig_3_2"]
 LINEAR = config["claims"]["linear"]
-
-try:
-    JUDGED = paths_of(read_claims(CLAIMS, CLAIMS_SCHEMA))
-except configuration.ConfigurationError as error:
-    raise WorkflowError(str(error)) from None
 
 
 rule compute_model_checks:
@@ -36,7 +29,7 @@ rule compute_model_checks:
         delta_deg=HOPPER["delta_deg"],
         half_angle_deg=HOPPER["half_angle_deg"],
         models=HOPPER["models"],
-        mu=sorted({mu for case in config["radial"].values() for mu in case["mu"]}),
+        mu=sorted({mu for figure in ["fig_3_1", "fig_3_2"] for mu in config["radial"][figure]["mu"]}),
     script:
         f"{SCRIPTS}/compute_model_checks.py"
 
@@ -63,7 +56,7 @@ rule compute_linear_checks:
         smooth=LINEAR["smooth"],
         folds=LINEAR["folds"],
         windows=LINEAR["windows"],
-        kept_modes=PSEUDO["modes"],
+        norms=PSEUDO["formulations"],
     script:
         f"{SCRIPTS}/compute_linear_checks.py"
 

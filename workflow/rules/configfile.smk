@@ -16,12 +16,13 @@ from hopper_workflow import (
     code_graph,
     configuration,
     effective,
+    entries,
     live,
     requests,
     surroundings,
     targets,
 )
-from hopper_workflow.claims.words import paths_of, read_claims
+from hopper_workflow.claims.words import half_angles_in, paths_of, read_claims
 
 sys.path.remove(str(ROOT / "scripts"))
 

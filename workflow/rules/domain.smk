@@ -2,9 +2,6 @@
 # Section 4: where hoppers are stable, Figures 4.4 and 4.5
 # =================================================================================================
 
-FIGURES += ["fig_4_4", "fig_4_4_30", "fig_4_5", "fig_4_5_map", "fig_domain_angle"]
-
-MAP = config["stability_map"]
 CASES = [
     f"{geometry}_{angle}" for angle in MAP["half_angles_deg"] for geometry in ["wedge", "cone"]
 ]
@@ -177,10 +174,10 @@ rule plot_fig_4_4:
             caption="../report/fig_4_4.rst",
             category="4 Stability",
             labels=lambda wildcards: labels(
-                f"4.4, {curve('half_angle_deg')(wildcards):g}°",
-                "max Re λ over wall friction",
+                number_of(wildcards.figure),
+                f"max Re λ over wall friction, half angle {curve('half_angle_deg')(wildcards):g}°",
                 "wedge, cone",
-                "both",
+                "paper and physical",
             ),
         ),
         pdf="figures/{figure}.pdf",

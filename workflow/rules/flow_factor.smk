@@ -2,8 +2,6 @@
 # Validation: flow factors against Jenike's published chart
 # =================================================================================================
 
-FIGURES += ["fig_jenike"]
-
 
 rule compute_flow_factor:
     input:

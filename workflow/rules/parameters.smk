@@ -3,11 +3,26 @@
 # =================================================================================================
 
 import math
+import re
 
 
-def labels(figure, shows, geometry, mode="—"):
+def labels(figure, shows, geometry, formulation="—"):
     """Columns of a figure's row in the report; its section is the category."""
-    return {"figure": figure, "shows": shows, "geometry": geometry, "mode": mode}
+    return {"figure": figure, "shows": shows, "geometry": geometry, "formulation": formulation}
+
+
+def number_of(figure):
+    """Number of a figure of the paper, with what makes it another one; a free name as it is."""
+    match = re.fullmatch(r"fig_(?:(\d)_(\d))?_?(\w*)", figure)
+    if match is None:
+        return figure.replace("_", " ")
+    number = f"{match[1]}.{match[2]} " if match[1] else ""
+    return f"{number}{match[3].replace('_', ' ')}".strip()
+
+
+def radial(key):
+    """A parameter of a figure of radial fields."""
+    return lambda wildcards: config["radial"][wildcards.figure][key]
 
 
 def hopper_of(spectrum):
@@ -34,6 +49,27 @@ def spectrum_case(spectrum, geometry):
 def transient(key):
     """A parameter of a transient figure."""
     return lambda wildcards: config["transient"][wildcards.figure][key]
+
+
+def kept_in(wildcards):
+    """The formulations of a transient figure."""
+    return " and ".join(transient("kept_in")(wildcards))
+
+
+def pseudospectrum(key):
+    """A parameter of a figure of pseudospectra."""
+    return lambda wildcards: config["pseudospectrum"][wildcards.figure][key]
+
+
+def formulations(wildcards):
+    """The formulations of a figure of pseudospectra, the paper's first."""
+    chosen = pseudospectrum("formulations")(wildcards)
+    return [each for each in FORMULATIONS if each in chosen]
+
+
+def weighting(key):
+    """Norm or weight of psi of one of them."""
+    return lambda wildcards: pseudospectrum("formulations")(wildcards)[wildcards.formulation][key]
 
 
 def curve(key):

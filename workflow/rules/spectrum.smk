@@ -2,8 +2,6 @@
 # Section 4: smooth-wall theory, discrete spectra and their filter, Figures 4.1 and 4.2
 # =================================================================================================
 
-FIGURES += ["fig_4_1", "fig_4_2", "fig_4_2_physical"]
-
 
 rule compute_spectrum:
     input:
@@ -151,23 +149,27 @@ rule plot_fig_4_1:
 
 rule plot_fig_4_2:
     input:
-        wedge="results/spectrum/fig_4_2/wedge.nc",
-        cone="results/spectrum/fig_4_2/cone.nc",
-        wedge_exact="results/spectrum/fig_4_2/wedge_exact.nc",
-        cone_exact="results/spectrum/fig_4_2/cone_exact.nc",
+        wedge="results/spectrum/{figure}/wedge.nc",
+        cone="results/spectrum/{figure}/cone.nc",
+        wedge_exact="results/spectrum/{figure}/wedge_exact.nc",
+        cone_exact="results/spectrum/{figure}/cone_exact.nc",
         code=code_of("plot_fig_4_2"),
     output:
         png=report(
-            "figures/fig_4_2.png",
+            "figures/{figure}.png",
             caption="../report/fig_4_2.rst",
             category="4 Stability",
-            labels=labels("4.2", "discrete spectra", "wedge, cone", "paper"),
+            labels=lambda wildcards: labels(
+                number_of(wildcards.figure), "discrete spectra", "wedge, cone", "paper"
+            ),
         ),
-        pdf="figures/fig_4_2.pdf",
+        pdf="figures/{figure}.pdf",
     log:
-        "logs/plot_fig_4_2.log",
+        "logs/plot_fig_4_2/{figure}.log",
     benchmark:
-        "logs/plot_fig_4_2.benchmark.tsv"
+        "logs/plot_fig_4_2/{figure}.benchmark.tsv"
+    wildcard_constraints:
+        figure=targets.words(config["spectra"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1
@@ -179,23 +181,30 @@ rule plot_fig_4_2:
 
 rule plot_fig_4_2_physical:
     input:
-        wedge="results/spectrum/fig_4_2/wedge.nc",
-        cone="results/spectrum/fig_4_2/cone.nc",
-        wedge_line="results/stability/fig_4_2/wedge.nc",
-        cone_line="results/stability/fig_4_2/cone.nc",
+        wedge="results/spectrum/{figure}/wedge.nc",
+        cone="results/spectrum/{figure}/cone.nc",
+        wedge_line="results/stability/{figure}/wedge.nc",
+        cone_line="results/stability/{figure}/cone.nc",
         code=code_of("plot_fig_4_2_physical"),
     output:
         png=report(
-            "figures/fig_4_2_physical.png",
+            "figures/{figure}_physical.png",
             caption="../report/fig_4_2_physical.rst",
             category="4 Stability",
-            labels=labels("4.2 physical", "spectra and the line Λ", "wedge, cone", "physical"),
+            labels=lambda wildcards: labels(
+                f"{number_of(wildcards.figure)} physical",
+                "spectra and the line Λ",
+                "wedge, cone",
+                "physical",
+            ),
         ),
-        pdf="figures/fig_4_2_physical.pdf",
+        pdf="figures/{figure}_physical.pdf",
     log:
-        "logs/plot_fig_4_2_physical.log",
+        "logs/plot_fig_4_2_physical/{figure}.log",
     benchmark:
-        "logs/plot_fig_4_2_physical.benchmark.tsv"
+        "logs/plot_fig_4_2_physical/{figure}.benchmark.tsv"
+    wildcard_constraints:
+        figure=targets.words(config["spectra"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1
