@@ -28,7 +28,7 @@ def compute_sensitivity(
     *,
     hopper: dict[str, Any],
     nodes: int,
-    mode: str,
+    formulation: str,
     norm: Norm,
     psi_scale: float,
     frequencies: dict[str, Any],
@@ -36,7 +36,7 @@ def compute_sensitivity(
 ) -> xr.Dataset:
     """Measure the non-normality of M on the kept modes and of the full matrix."""
     solution = solution_of(**hopper)
-    kept = kept_modes.by_half(artifacts.read(spectrum), mode)
+    kept = kept_modes.by_half(artifacts.read(spectrum), formulation)
     weight = half_weights(solution.hopper, nodes // 2, norm)
     forms = {
         half: schur_form(half_matrix(solution, nodes // 2, half, psi_scale), weight)
@@ -62,7 +62,7 @@ def compute_sensitivity(
         "frequency": y,
         "elapsed": times,
     }
-    logging.info("%s, %s: %s", hopper["geometry"], mode, measures)
+    logging.info("%s, %s: %s", hopper["geometry"], formulation, measures)
     return dataset(result, TABLE, AXES)
 
 
@@ -91,7 +91,7 @@ if __name__ == "__main__":
     jobs.run(
         artifacts.writing(
             compute_sensitivity,
-            "Sensitivity of the spectrum, {mode} mode, {norm} norm",
+            "Sensitivity of the spectrum, {formulation} formulation, {norm} norm",
             "(4.2), (4.11); Trefethen and Embree (2005)",
         )
     )

@@ -26,7 +26,7 @@ def compute_transient(
     psi_scales: Sequence[float],
     elapsed: dict[str, Any],
 ) -> xr.Dataset:
-    """Compute the norm over -t in [0, elapsed.stop] for every set of modes, norm and weight of psi.
+    """Compute the norm over -t in [0, elapsed.stop] for every formulation, norm and weight of psi.
 
     ``elapsed.points`` is the least number of times; there are as many as the curves need.
     """
@@ -35,9 +35,9 @@ def compute_transient(
     cases = [
         [
             modal_basis(solution, nodes, half, kept, norm, scale)
-            for half, kept in kept_modes.by_half(data, modes).items()
+            for half, kept in kept_modes.by_half(data, formulation).items()
         ]
-        for modes, norm, scale in choices
+        for formulation, norm, scale in choices
     ]
     times, curves = growth_curves(cases, 0, elapsed["stop"], elapsed["points"])
     logging.info("%d times", times.size)
@@ -72,7 +72,7 @@ TABLE = within(
     ),
 )
 AXES = (
-    flag("kept_in", "kept modes", kept_modes.MODES, "kept_in"),
+    flag("kept_in", "formulation in which modes are kept", kept_modes.FORMULATIONS, "kept_in"),
     flag("norm", "vector norm", NORMS, "norm"),
     number("psi_scale", "p in (sigma1, psi1 / p)", "psi_scale"),
     number("elapsed", "-t = -log r, the way down the hopper", "elapsed"),

@@ -82,7 +82,7 @@ def problems(config: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         for name, entry in config[section].items():
             labels = [f"{value:g}" for value in entry[values]]
             if len(set(labels)) < len(labels):
-                problem = "two values are equal to six digits, and their curves cannot be told apart"
+                problem = "two values are equal to six digits: their curves cannot be told apart"
                 yield f"{section}.{name}.{values}", problem
 
 

@@ -29,7 +29,9 @@ rule compute_model_checks:
         delta_deg=HOPPER["delta_deg"],
         half_angle_deg=HOPPER["half_angle_deg"],
         models=HOPPER["models"],
-        mu=sorted({mu for figure in ["fig_3_1", "fig_3_2"] for mu in config["radial"][figure]["mu"]}),
+        mu=sorted(
+            {mu for figure in ["fig_3_1", "fig_3_2"] for mu in config["radial"][figure]["mu"]}
+        ),
     script:
         f"{SCRIPTS}/compute_model_checks.py"
 

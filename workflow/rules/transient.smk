@@ -127,7 +127,10 @@ rule plot_fig_4_3_norms:
             caption="../report/fig_4_3_norms.rst",
             category="4 Stability",
             labels=lambda wildcards: labels(
-                number_of(wildcards.figure), "growth in several norms", "wedge, cone", kept_in(wildcards)
+                number_of(wildcards.figure),
+                "growth in several norms",
+                "wedge, cone",
+                kept_in(wildcards),
             ),
         ),
         pdf="figures/{figure}.pdf",
@@ -184,7 +187,8 @@ rule plot_fig_pseudospectrum:
         levels_log10=pseudospectrum("levels_log10"),
         formulations=formulations,
         norms=lambda wildcards: [
-            pseudospectrum("formulations")(wildcards)[each]["norm"] for each in formulations(wildcards)
+            pseudospectrum("formulations")(wildcards)[each]["norm"]
+            for each in formulations(wildcards)
         ],
     script:
         f"{SCRIPTS}/plot_fig_pseudospectrum.py"

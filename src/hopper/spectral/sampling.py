@@ -8,6 +8,22 @@ from hopper.arrays import Array
 
 # Halvings of an interval of the first samples.
 _DEEPEST = 16
+# Distances from a place at which an axis closes in on it.
+_CLOSEST = 6
+
+
+def closing_in(points: Array, places: Array) -> Array:
+    """Return an increasing axis with points added that close in on places within it.
+
+    They halve their distance from the spacing of ``points`` on, and leave the place itself out.
+    """
+    spacing = float(np.diff(points).max())
+    inside = places[(places > points[0]) & (places < points[-1])]
+    offsets = spacing * 0.5 ** np.arange(_CLOSEST)
+    near = (inside[:, None] + np.concatenate([-offsets, offsets])).ravel()
+    near = near[(near > points[0]) & (near < points[-1])]
+    # Places that are equal but for rounding give one point.
+    return np.unique(np.append(points, np.round(near / spacing, 6) * spacing))
 
 
 def refined(

@@ -229,9 +229,9 @@ def growth_curves(
 ) -> tuple[Array, Array]:
     """Return times from start to stop, and exp(-t alpha) ||exp(t M)|| of several cases at them.
 
-    The first times are a quarter period of the fastest mode apart, as that is what makes peaks and
-    dips; where lines between them are off by more than 1 % there are more, so that the drawn curve
-    is the curve.
+    The first times are half a period of the fastest mode apart, as that is what makes peaks and
+    dips; where lines between them are off by more than 1 % in the middle there are more, so that
+    the drawn curve is the curve.
 
     Parameters
     ----------
@@ -264,8 +264,8 @@ def growth_curves(
         raise InvalidParameterError("cases is empty: give the bases of at least one")
     highest = max((_highest(bases) for bases in cases), default=0.0)
     _norm(cases[0], np.array([stop]), abscissa(cases[0]))
-    quarters = ceil(min(4 * highest * (stop - start) / (2 * pi), _MOST_TIMES))
-    first = np.linspace(start, stop, (least - 1) * max(1, ceil(quarters / (least - 1))) + 1)
+    halves = ceil(min(highest * (stop - start) / pi, _MOST_TIMES))
+    first = np.linspace(start, stop, (least - 1) * max(1, ceil(halves / (least - 1))) + 1)
     return refined(
         lambda times: np.stack([_norm(bases, times, abscissa(bases)) for bases in cases]),
         first,
