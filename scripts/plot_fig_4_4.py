@@ -4,7 +4,6 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patheffects import withStroke
 
 from hopper_workflow import artifacts, jobs, plotting
 
@@ -80,7 +79,7 @@ def _name_curve(axis: Axes, data: xr.Dataset, color: object, name: str) -> None:
         textcoords="offset points",
         fontsize=plotting.SMALL,
         color=color,
-        path_effects=[withStroke(linewidth=2, foreground="white")],
+        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.2},
     )
 
 

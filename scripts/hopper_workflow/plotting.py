@@ -18,6 +18,7 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from hopper_cli import drawing
 from hopper_workflow.artifacts import replacing
 
 COLUMN_WIDTH, PAGE_WIDTH = 3.4, 7.1  # inches: one column of a page, and two
@@ -38,7 +39,7 @@ MODEL_STYLES = {
 GEOMETRY_COLORS = {"wedge": BLUE, "cone": ORANGE}
 GEOMETRIES = ("wedge", "cone")
 NORM_NAMES = {"discrete": "discrete norm", "L2": "$L_2$ norm"}
-STYLE = Path(__file__).with_name("paper.mplstyle")
+STYLE = drawing.STYLE
 
 
 def subplots(
@@ -84,7 +85,7 @@ def series(count: int) -> list[dict[str, Any]]:
 
 def signed(value: float, digits: str) -> str:
     """Return a number with a true minus sign."""
-    return f"{value:{digits}}".replace("-", "\N{MINUS SIGN}")
+    return drawing.typeset(f"{value:{digits}}")
 
 
 def below(figure: Figure, handles: Sequence[Artist], columns: int) -> None:

@@ -44,7 +44,6 @@ rule plot_case:
         "../../envs/hopper.yaml"
     threads: 1
     params:
-        description=lambda wildcards: own_hopper(wildcards).get("description", ""),
-        delta_deg=lambda wildcards: own_hopper(wildcards)["delta_deg"],
+        case=own_hopper,
     script:
         f"{SCRIPTS}/plot_case.py"
