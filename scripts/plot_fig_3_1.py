@@ -10,7 +10,7 @@ from hopper_workflow import artifacts, jobs, plotting
 def draw(artifact: str) -> Figure:
     """Plot sigma and u over the polar angle for every model and wall friction."""
     data = artifacts.read(artifact)
-    figure, axes = plotting.subplots(1, 2, height=3.0)
+    figure, axes = plotting.subplots(1, 2, height=3.2)
     looks = plotting.series(data.sizes["mu"])
     for axis, name in zip(axes, ("sigma", "u"), strict=True):
         for model in data.model.values:
@@ -24,6 +24,7 @@ def draw(artifact: str) -> Figure:
     axes[0].set_ylabel(r"average stress $\sigma/(\rho g r)$")
     axes[1].set_ylabel(r"velocity $u(\vartheta)/u(0)$")
     plotting.letter(axes)
+    figure.suptitle(plotting.hopper_of(data), fontsize=8)
     frictions = [
         plotting.key(rf"$\mu$ = {mu:g}", color=look["color"], marker=look["marker"])
         for mu, look in zip(data.mu.values, looks, strict=True)

@@ -13,7 +13,7 @@ def draw(artifact: str, *, stagnant_from_deg: float | None) -> Figure:
     """Plot u and psi of every model and wall friction; shade what the paper calls stagnant."""
     data = artifacts.read(artifact)
     half_angle = float(data.theta.max())
-    figure, axes = plotting.subplots(1, 2, height=2.9)
+    figure, axes = plotting.subplots(1, 2, height=3.1)
     looks = plotting.series(data.sizes["mu"])
     for axis, name in zip(axes, ("u", "psi"), strict=True):
         if stagnant_from_deg is not None:
@@ -34,6 +34,7 @@ def draw(artifact: str, *, stagnant_from_deg: float | None) -> Figure:
     angle.set_yticklabels([r"$-\pi/4$", r"$-\pi/8$", "0", r"$\pi/8$", r"$\pi/4$"])
     angle.set_ylabel(r"Sokolovskii angle $\psi$ (radians)")
     plotting.letter(axes)
+    figure.suptitle(plotting.hopper_of(data), fontsize=8)
     models = [plotting.key(**plotting.MODEL_STYLES[model]) for model in data.model.values]
     frictions = [
         plotting.key(rf"$\mu$ = {mu:g}", color=look["color"], marker=look["marker"])

@@ -4,6 +4,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from hopper_workflow import artifacts, jobs, plotting
 
@@ -18,14 +19,15 @@ def draw(wedge: str, cone: str, wedge_exact: str, cone_exact: str, *, zoom_imag:
     for column, (geometry, spectrum, exact, equation) in enumerate(columns):
         data, theory = artifacts.read(spectrum), artifacts.read(exact)
         top, bottom = axes[:, column]
-        _draw_spectrum(top, data, 0.8)
+        count = int(data.run_stop - data.run_start)
+        # So many dots above each other that they must not melt into a bar.
+        _draw_spectrum(top, data, float(np.clip(200 / count, 0.8, 3)))
         _draw_spectrum(bottom, data, 3.0)
         crosses = _exact(theory, geometry)
         crosses = crosses[np.abs(crosses.imag) <= zoom_imag]
         bottom.plot(crosses.real, crosses.imag, "x", color=plotting.ORANGE, markersize=6)
         bottom.set_ylim(-0.05 * zoom_imag, zoom_imag)
         top.set_ylim(bottom=-0.02 * top.get_ylim()[1])
-        count = int(data.run_stop - data.run_start)
         top.set_title(f"{geometry}, paper's formulation: {count} converged")
         bottom.set_title(f"{geometry}: low part, crosses exact {equation}, smooth wall")
         for axis in (top, bottom):
@@ -33,8 +35,19 @@ def draw(wedge: str, cone: str, wedge_exact: str, cone_exact: str, *, zoom_imag:
             axis.margins(x=0.12)
     for axis in axes[:, 0]:
         axis.set_ylabel(r"Im $\lambda$ (conjugates not drawn)")
-    plotting.below(figure, _KEYS, 3)
+    plotting.below(figure, [key for key in _KEYS if _drawn(key, axes)], 3)
     return figure
+
+
+def _drawn(key: Line2D, axes: np.ndarray) -> bool:
+    """Tell whether a panel has what a key stands for: points of its marker and filling."""
+    looks = {
+        (line.get_marker(), line.get_markerfacecolor())
+        for axis in axes.flat
+        for line in axis.lines
+        if len(line.get_xdata())
+    }
+    return (key.get_marker(), key.get_markerfacecolor()) in looks
 
 
 def _exact(theory: xr.Dataset, geometry: str) -> np.ndarray:

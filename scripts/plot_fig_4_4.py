@@ -37,7 +37,8 @@ def draw(
         axis.set_title(f"{geometry}, physical formulation, up to the limit of friction")
     for axis in axes[:, 0]:
         axis.set_ylabel(r"max Re $\lambda$")
-    plotting.below(figure, _KEYS, 3)
+    drawn = {line.get_marker() for axis in axes.flat for line in axis.lines}
+    plotting.below(figure, [key for key in _KEYS if key.get_marker() in drawn], 3)
     return figure
 
 

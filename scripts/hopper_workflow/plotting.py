@@ -1,5 +1,6 @@
 """One look for all figures: sizes, colours, line styles, reproducible files."""
 
+import json
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from string import ascii_lowercase
@@ -11,6 +12,7 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
+import xarray as xr
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
@@ -81,6 +83,15 @@ def series(count: int) -> list[dict[str, Any]]:
         {"color": color, "marker": marker, "markevery": (0.05 + 0.03 * index, 0.3)}
         for index, (color, marker) in enumerate(zip(sequence(count), _MARKERS, strict=False))
     ]
+
+
+def hopper_of(data: xr.Dataset) -> str:
+    """Return the hopper that an artifact is of, from its parameters."""
+    made_with = json.loads(data.attrs["parameters"])
+    return (
+        rf"{made_with['geometry']}, $\delta$ = {made_with['delta_deg']:g}°, "
+        rf"$\vartheta_w$ = {made_with['half_angle_deg']:g}°"
+    )
 
 
 def signed(value: float, digits: str) -> str:
