@@ -106,13 +106,7 @@ class Workflow:
         """Rules, with their figure if they have one, that a dry run would execute."""
         done = self.snakemake("-n", *targets)
         assert done.returncode == 0, done.stderr
-        blocks = re.split(r"\n(?=(?:local)?rule )", done.stdout)
-        found = set()
-        for block in blocks:
-            if match := re.match(r"(?:local)?rule (\w+):", block):
-                wildcards = re.search(r"wildcards: (.*)", block)
-                values = re.findall(r"=([^,\s]+)", wildcards[1]) if wildcards else []
-                found.add("/".join([match[1], *values]))
+        found = set(re.findall(r"^Job \d+: (\S+):", done.stdout, re.MULTILINE))
         return found - {"all"}
 
     def set(self, key: str, value: Any) -> None:

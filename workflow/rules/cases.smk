@@ -4,6 +4,7 @@
 
 
 rule compute_case:
+    """All that is known about a hopper of the list `cases`."""
     input:
         code=code_of("compute_case"),
     output:
@@ -20,11 +21,14 @@ rule compute_case:
         case=lambda wildcards: {
             key: value for key, value in own_hopper(wildcards).items() if key != "description"
         },
+    message:
+        "compute_case/{wildcards.case}: All that is known about a hopper of the list cases"
     script:
         f"{SCRIPTS}/compute_case.py"
 
 
 rule plot_case:
+    """The page of a hopper of the list `cases`."""
     input:
         artifact="results/cases/{case}.nc",
         code=code_of("plot_case"),
@@ -45,5 +49,7 @@ rule plot_case:
     threads: 1
     params:
         case=own_hopper,
+    message:
+        "plot_case/{wildcards.case}: The page of a hopper of the list cases"
     script:
         f"{SCRIPTS}/plot_case.py"

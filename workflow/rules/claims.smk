@@ -11,6 +11,7 @@ LINEAR = config["claims"]["linear"]
 
 
 rule compute_model_checks:
+    """Sections 2 and 3: what only the ledger needs of the two models."""
     input:
         code=code_of("compute_model_checks"),
     output:
@@ -32,11 +33,14 @@ rule compute_model_checks:
         mu=sorted(
             {mu for figure in ["fig_3_1", "fig_3_2"] for mu in config["radial"][figure]["mu"]}
         ),
+    message:
+        "compute_model_checks: Sections 2 and 3: what only the ledger needs of the two models"
     script:
         f"{SCRIPTS}/compute_model_checks.py"
 
 
 rule compute_linear_checks:
+    """Section 4: what only the ledger needs of the linearised equations."""
     input:
         wedge=f"results/spectrum/{LINEAR['spectrum']}/wedge.nc",
         cone=f"results/spectrum/{LINEAR['spectrum']}/cone.nc",
@@ -59,11 +63,14 @@ rule compute_linear_checks:
         folds=LINEAR["folds"],
         windows=LINEAR["windows"],
         norms=PSEUDO["formulations"],
+    message:
+        "compute_linear_checks: Section 4: what only the ledger needs of the linearised equations"
     script:
         f"{SCRIPTS}/compute_linear_checks.py"
 
 
 rule judge_claims:
+    """The verdict on every claim of the paper."""
     input:
         claims=CLAIMS,
         schema=CLAIMS_SCHEMA,
@@ -80,11 +87,14 @@ rule judge_claims:
     threads: 1
     resources:
         **asks("judge_claims", map_points()),
+    message:
+        "judge_claims: The verdict on every claim of the paper"
     script:
         f"{SCRIPTS}/judge_claims.py"
 
 
 rule render_claims:
+    """The ledger for reading, HTML and Markdown."""
     input:
         table="results/claims.csv",
         claims=CLAIMS,
@@ -102,5 +112,7 @@ rule render_claims:
     conda:
         "../../envs/hopper.yaml"
     threads: 1
+    message:
+        "render_claims: The ledger for reading, HTML and Markdown"
     script:
         f"{SCRIPTS}/render_claims.py"

@@ -15,6 +15,7 @@ sys.path.append(str(ROOT / "scripts"))
 from hopper_workflow import (
     code_graph,
     configuration,
+    console,
     effective,
     entries,
     live,
@@ -34,6 +35,7 @@ if Path(sys.executable).exists():
 
 # In a module environment and configuration are somebody else's, of which we know only our part.
 if not workflow.modifier.skip_configfile:
+    console.be_brief(logger)
     if foreign := surroundings.set_aside(os.environ):
         logger.info(f"Set aside from the environment: {' '.join(foreign)}")
     settled = surroundings.settled(os.environ)

@@ -4,6 +4,7 @@
 
 
 rule solve_radial:
+    """Section 3: stress and velocity fields of an entry of `radial`."""
     input:
         code=code_of("solve_radial"),
     output:
@@ -25,11 +26,14 @@ rule solve_radial:
         models=radial("models"),
         mu=radial("mu"),
         points=radial("points"),
+    message:
+        "solve_radial/{wildcards.figure}: Section 3: stress and velocity fields of an entry of radial"
     script:
         f"{SCRIPTS}/solve_radial.py"
 
 
 rule plot_fig_3_1:
+    """Figure 3.1, and other entries of `radial`: stress and velocity."""
     input:
         artifact="results/radial/{figure}.nc",
         code=code_of("plot_fig_3_1"),
@@ -52,11 +56,14 @@ rule plot_fig_3_1:
     conda:
         "../../envs/hopper.yaml"
     threads: 1
+    message:
+        "plot_fig_3_1/{wildcards.figure}: figure of stress and velocity"
     script:
         f"{SCRIPTS}/plot_fig_3_1.py"
 
 
 rule plot_fig_3_2:
+    """Figure 3.2, and other entries of `radial`: velocity and psi."""
     input:
         artifact="results/radial/{figure}.nc",
         code=code_of("plot_fig_3_2"),
@@ -84,5 +91,7 @@ rule plot_fig_3_2:
         stagnant_from_deg=lambda wildcards: (
             config["fig_3_2"]["stagnant_from_deg"] if wildcards.figure == "fig_3_2" else None
         ),
+    message:
+        "plot_fig_3_2/{wildcards.figure}: figure of velocity and psi"
     script:
         f"{SCRIPTS}/plot_fig_3_2.py"

@@ -4,6 +4,7 @@
 
 
 rule compute_spectrum:
+    """Section 4: all eigenvalues of M on one mesh."""
     input:
         code=code_of("compute_spectrum"),
     output:
@@ -24,11 +25,14 @@ rule compute_spectrum:
         half_angle_deg=lambda wildcards: hopper_of(wildcards.figure)["half_angle_deg"],
         mu=lambda wildcards: hopper_of(wildcards.figure)["mu"],
         nodes=lambda wildcards: int(wildcards.nodes),
+    message:
+        "compute_spectrum/{wildcards.figure}/{wildcards.geometry}/{wildcards.nodes}: Section 4: all eigenvalues of M on one mesh"
     script:
         f"{SCRIPTS}/compute_spectrum.py"
 
 
 rule filter_spectrum:
+    """Section 4: the eigenvalues that two meshes agree on."""
     input:
         fine=mesh("nodes"),
         coarse=mesh("coarse_nodes"),
@@ -53,11 +57,14 @@ rule filter_spectrum:
         nodes=lambda wildcards: config["spectra"][wildcards.figure]["nodes"],
         coarse_nodes=lambda wildcards: config["spectra"][wildcards.figure]["coarse_nodes"],
         tolerance=lambda wildcards: config["spectra"][wildcards.figure]["tolerance"],
+    message:
+        "filter_spectrum/{wildcards.figure}/{wildcards.geometry}: Section 4: the eigenvalues that two meshes agree on"
     script:
         f"{SCRIPTS}/filter_spectrum.py"
 
 
 rule compute_exact_spectrum:
+    """Section 4: exact smooth-wall eigenvalues."""
     input:
         code=code_of("compute_exact_spectrum"),
     output:
@@ -77,11 +84,14 @@ rule compute_exact_spectrum:
         delta_deg=lambda wildcards: hopper_of(wildcards.figure)["delta_deg"],
         half_angle_deg=lambda wildcards: hopper_of(wildcards.figure)["half_angle_deg"],
         modes=lambda wildcards: config["spectra"][wildcards.figure]["exact_modes"],
+    message:
+        "compute_exact_spectrum/{wildcards.figure}/{wildcards.geometry}: Section 4: exact smooth-wall eigenvalues"
     script:
         f"{SCRIPTS}/compute_exact_spectrum.py"
 
 
 rule compute_stability:
+    """Section 4: low modes and the line, the verdict of stability."""
     input:
         code=code_of("compute_stability"),
     output:
@@ -101,11 +111,14 @@ rule compute_stability:
         delta_deg=lambda wildcards: hopper_of(wildcards.figure)["delta_deg"],
         half_angle_deg=lambda wildcards: hopper_of(wildcards.figure)["half_angle_deg"],
         mu=lambda wildcards: hopper_of(wildcards.figure)["mu"],
+    message:
+        "compute_stability/{wildcards.figure}/{wildcards.geometry}: Section 4: low modes and the line, the verdict of stability"
     script:
         f"{SCRIPTS}/compute_stability.py"
 
 
 rule compute_smooth_wall:
+    """Section 4: smooth-wall theory."""
     input:
         code=code_of("compute_smooth_wall"),
     output:
@@ -120,11 +133,14 @@ rule compute_smooth_wall:
     threads: 1
     params:
         **config["smooth_wall"],
+    message:
+        "compute_smooth_wall: Section 4: smooth-wall theory"
     script:
         f"{SCRIPTS}/compute_smooth_wall.py"
 
 
 rule plot_fig_4_1:
+    """Figure 4.1, abscissae of smooth walls."""
     input:
         artifact="results/smooth_wall.nc",
         code=code_of("plot_fig_4_1"),
@@ -143,11 +159,14 @@ rule plot_fig_4_1:
     conda:
         "../../envs/hopper.yaml"
     threads: 1
+    message:
+        "plot_fig_4_1: Figure 4.1, abscissae of smooth walls"
     script:
         f"{SCRIPTS}/plot_fig_4_1.py"
 
 
 rule plot_fig_4_2:
+    """Figure 4.2, and each other entry of `spectra`: the paper's formulation."""
     input:
         wedge="results/spectrum/{figure}/wedge.nc",
         cone="results/spectrum/{figure}/cone.nc",
@@ -175,11 +194,14 @@ rule plot_fig_4_2:
     threads: 1
     params:
         zoom_imag=config["fig_4_2"]["zoom_imag"],
+    message:
+        "plot_fig_4_2/{wildcards.figure}: figure of a spectrum"
     script:
         f"{SCRIPTS}/plot_fig_4_2.py"
 
 
 rule plot_fig_4_2_physical:
+    """The same spectra in the physical formulation."""
     input:
         wedge="results/spectrum/{figure}/wedge.nc",
         cone="results/spectrum/{figure}/cone.nc",
@@ -208,5 +230,7 @@ rule plot_fig_4_2_physical:
     conda:
         "../../envs/hopper.yaml"
     threads: 1
+    message:
+        "plot_fig_4_2_physical/{wildcards.figure}: figure of a spectrum, physical formulation"
     script:
         f"{SCRIPTS}/plot_fig_4_2_physical.py"

@@ -7,6 +7,7 @@ PSEUDO = config["pseudospectrum"]["fig_pseudospectrum"]
 
 
 rule compute_transient:
+    """Section 4: norm of exp(-t M), one geometry of an entry of `transient`."""
     input:
         spectrum=lambda wildcards: f"results/spectrum/{transient('spectrum')(wildcards)}/{wildcards.geometry}.nc",
         code=code_of("compute_transient"),
@@ -29,11 +30,14 @@ rule compute_transient:
         norms=transient("norms"),
         psi_scales=transient("psi_scales"),
         elapsed=transient("elapsed"),
+    message:
+        "compute_transient/{wildcards.figure}/{wildcards.geometry}: Section 4: norm of exp(-tM)"
     script:
         f"{SCRIPTS}/compute_transient.py"
 
 
 rule compute_pseudospectrum:
+    """Section 4: sigma_min(z I - M) over the plane."""
     input:
         code=code_of("compute_pseudospectrum"),
     output:
@@ -58,11 +62,14 @@ rule compute_pseudospectrum:
         psi_scale=weighting("psi_scale"),
         real=pseudospectrum("real"),
         imag=pseudospectrum("imag"),
+    message:
+        "compute_pseudospectrum/{wildcards.figure}/{wildcards.geometry}/{wildcards.formulation}: Section 4: sigma_min(z I - M) over the plane"
     script:
         f"{SCRIPTS}/compute_pseudospectrum.py"
 
 
 rule compute_sensitivity:
+    """Section 4: resolvent, condition numbers, distance to instability."""
     input:
         spectrum=f"results/spectrum/{PSEUDO['spectrum']}/{{geometry}}.nc",
         code=code_of("compute_sensitivity"),
@@ -84,11 +91,14 @@ rule compute_sensitivity:
         psi_scale=lambda wildcards: PSEUDO["formulations"][wildcards.formulation]["psi_scale"],
         frequencies=config["sensitivity"]["frequencies"],
         elapsed=config["sensitivity"]["elapsed"],
+    message:
+        "compute_sensitivity/{wildcards.geometry}/{wildcards.formulation}: Section 4: resolvent, condition numbers, distance to instability"
     script:
         f"{SCRIPTS}/compute_sensitivity.py"
 
 
 rule plot_fig_4_3:
+    """Figure 4.3, and other entries of `transient`: one norm and its bounds."""
     input:
         wedge="results/transient/{figure}/wedge.nc",
         cone="results/transient/{figure}/cone.nc",
@@ -112,11 +122,14 @@ rule plot_fig_4_3:
     conda:
         "../../envs/hopper.yaml"
     threads: 1
+    message:
+        "plot_fig_4_3/{wildcards.figure}: figure of growth between its bounds"
     script:
         f"{SCRIPTS}/plot_fig_4_3.py"
 
 
 rule plot_fig_4_3_norms:
+    """Entries of `transient` with several norms."""
     input:
         wedge="results/transient/{figure}/wedge.nc",
         cone="results/transient/{figure}/cone.nc",
@@ -143,11 +156,14 @@ rule plot_fig_4_3_norms:
     conda:
         "../../envs/hopper.yaml"
     threads: 1
+    message:
+        "plot_fig_4_3_norms/{wildcards.figure}: figure of growth in several norms"
     script:
         f"{SCRIPTS}/plot_fig_4_3_norms.py"
 
 
 rule plot_fig_pseudospectrum:
+    """Each entry of `pseudospectrum`."""
     input:
         panels=lambda wildcards: expand(
             "results/pseudospectrum/{figure}/{geometry}_{formulation}.nc",
@@ -190,11 +206,14 @@ rule plot_fig_pseudospectrum:
             pseudospectrum("formulations")(wildcards)[each]["norm"]
             for each in formulations(wildcards)
         ],
+    message:
+        "plot_fig_pseudospectrum/{wildcards.figure}: figure of pseudospectra"
     script:
         f"{SCRIPTS}/plot_fig_pseudospectrum.py"
 
 
 rule plot_fig_resolvent:
+    """Resolvent on the imaginary axis, and the Kreiss bound."""
     input:
         wedge_paper="results/sensitivity/wedge_paper.nc",
         cone_paper="results/sensitivity/cone_paper.nc",
@@ -218,5 +237,7 @@ rule plot_fig_resolvent:
     conda:
         "../../envs/hopper.yaml"
     threads: 1
+    message:
+        "plot_fig_resolvent: Resolvent on the imaginary axis, and the Kreiss bound"
     script:
         f"{SCRIPTS}/plot_fig_resolvent.py"

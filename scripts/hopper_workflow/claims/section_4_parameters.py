@@ -234,6 +234,7 @@ def folds_are_neutral(linear: xr.Dataset, *, zero: float) -> Finding:
     good = (modulus <= zero + error) & passed
     remark = (
         f"Largest |lambda| {upper_bound(modulus.max())}; the number of growing real modes differs "
-        "by one on the two sides. Such hoppers bound the domain without being on the curve that crosses it."
+        "by one on the two sides. Such hoppers bound the domain without being on the curve that "
+        "crosses it."
     )
     return counted(int(good.sum()), good.size, remark)
