@@ -24,6 +24,17 @@ _ROUNDING = 1e-13
 _NAMES = "sigma|psi|delta|theta|phi|mu|lambda|kappa|alpha|omega|chi|rho|epsilon|pi"
 # Whole words, perhaps with an index, or one after the other as in T_phiphi.
 _LETTERS = rf"(?:(?<![A-Za-z])|(?<=phi|eta))(?:{_NAMES})(?=(?:phi|theta)?(?![A-Za-z]))"
+_FIGURES = (
+    (r"results/radial/(\w+)\.nc", r"\1"),
+    (r"results/(?:spectrum|transient|friction)/(\w+)/\w+\.nc", r"\1"),
+    (r"results/stability/(\w+)/\w+\.nc", r"\1_physical"),
+    (r"results/(?:borders|paper_border)/\w+\.nc", "fig_4_5"),
+    (r"results/map/\w+\.nc", "fig_4_5_map"),
+    (r"results/sensitivity/\w+\.nc", "fig_resolvent"),
+    (r"results/flow_factor/jenike\.nc", "fig_jenike"),
+    (r"results/smooth_wall\.nc", "fig_4_1"),
+    (r"results/domain_angle\.nc", "fig_domain_angle"),
+)
 _NOTATION = (
     (r"sqrt\((\d+)\)", r"√\1"),
     (r" deg\b", "°"),
@@ -71,6 +82,8 @@ def _environment(escape: bool) -> jinja2.Environment:
     )
     environment.filters["figure"] = figure
     environment.filters["cell"] = cell
+    environment.filters["figures"] = figures
+    environment.filters["removed"] = str.removeprefix
     environment.filters["symbols"] = symbols
     return environment
 
@@ -95,6 +108,16 @@ def figure(computed: str, error: str) -> str:
     place = floor(log10(uncertain))
     number = f"{round(value, -place):.{max(0, -place)}f}"
     return f"{number} ± {uncertain:.0e}" if place < -3 else f"{number} ± {uncertain:.1g}"
+
+
+def figures(artifact: str) -> list[str]:
+    """Return the figures that show any of the artifacts, given as the ledger lists them."""
+    found = []
+    for path in artifact.split("; "):
+        for pattern, figure_of in _FIGURES:
+            if match := re.fullmatch(pattern, path):
+                found.append(match.expand(figure_of))
+    return list(dict.fromkeys(found))
 
 
 def symbols(text: str) -> str:

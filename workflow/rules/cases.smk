@@ -37,7 +37,7 @@ rule plot_case:
             "figures/case_{case}.png",
             caption="../report/case.rst",
             category="Cases",
-            labels={"case": "{case}"},
+            labels=labels_of_case,
         ),
         pdf="figures/case_{case}.pdf",
     log:

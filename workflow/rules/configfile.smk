@@ -13,6 +13,7 @@ from snakemake.logging import logger
 # The host of a module keeps its sys.path.
 sys.path.append(str(ROOT / "scripts"))
 from hopper_workflow import (
+    cases,
     code_graph,
     configuration,
     console,

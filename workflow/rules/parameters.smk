@@ -90,6 +90,19 @@ def own_hopper(wildcards):
     return next(case for case in config["cases"] if case["name"] == wildcards.case)
 
 
+def labels_of_case(wildcards):
+    """Columns of a case's row in the report, which is written when its artifact is there."""
+    case = own_hopper(wildcards)
+    return {
+        "case": case["name"],
+        "verdict": cases.verdict(f"results/cases/{case['name']}.nc"),
+        "hopper": case["geometry"],
+        "δ": f"{case['delta_deg']:g}°",
+        "half angle": f"{case['half_angle_deg']:g}°",
+        "μ": f"{case['mu']:g}",
+    }
+
+
 def mesh_of(spectrum):
     """Nodes of both meshes and tolerance of the filter of one of the discrete spectra."""
     case = config["spectra"][spectrum]

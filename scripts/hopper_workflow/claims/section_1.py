@@ -38,7 +38,7 @@ def stress_falls_and_particles_accelerate(moderate: xr.Dataset, rough: xr.Datase
     error = max(float(values(data, "error_velocity").max()) for data in (moderate, rough))
     lowest = min(least.values())
     return above(
-        lowest, 0.0, error * lowest, f"Least sigma {least['sigma']:.4f}, least u {least['u']:.2e}."
+        lowest, 0.0, error * lowest, f"Least sigma {least['sigma']:.4f}, least u {least['u']:.3g}."
     )
 
 
