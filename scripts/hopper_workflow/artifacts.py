@@ -2,7 +2,6 @@
 
 import json
 import platform
-import subprocess
 from collections.abc import Callable, Mapping
 from datetime import UTC, datetime
 from importlib.metadata import version
@@ -16,6 +15,7 @@ import hopper
 from hopper_data import cf
 from hopper_data.cf import plain as plain
 from hopper_data.files import replacing as replacing
+from hopper_workflow.commit import commit
 from hopper_workflow.logs import checksum as checksum
 
 _PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "matplotlib", "snakemake")
@@ -87,25 +87,13 @@ def _write_provenance(
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
         "parameters": json.loads(plain(parameters)),
         "hopper": hopper.__version__,
-        "commit": _commit(),
+        "commit": commit(),
         "python": platform.python_version(),
         "machine": platform.machine(),
         "packages": {name: version(name) for name in _PACKAGES},
     }
     with replacing(provenance) as temporary:
         temporary.write_text(json.dumps(record, indent=2) + "\n", encoding="utf-8")
-
-
-def _commit() -> str | None:
-    """Return `git describe` of the code, None outside a repository."""
-    command = ["git", "describe", "--always", "--dirty", "--abbrev=12"]
-    try:
-        done = subprocess.run(
-            command, cwd=Path(__file__).parent, capture_output=True, text=True, check=True
-        )
-    except (OSError, subprocess.CalledProcessError):
-        return None
-    return done.stdout.strip()
 
 
 def verify(path: str | Path) -> None:

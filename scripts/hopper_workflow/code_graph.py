@@ -22,7 +22,7 @@ def _graph() -> grimp.ImportGraph:
 
 @lru_cache(maxsize=256)
 def modules_used_by(root: Path, script: str) -> list[str]:
-    """Return the files, sorted, that ``script`` imports from this project, directly or not.
+    """Return ``script`` and the files it imports from this project, directly or not, sorted.
 
     ``root`` is the repository, ``script`` a path below it. Importing a module also runs the
     ``__init__`` of its packages; the plot style goes with the module that loads it.
@@ -35,9 +35,9 @@ def modules_used_by(root: Path, script: str) -> list[str]:
         modules.add(module)
         package = {module.rpartition(".")[0]} - {""}
         ahead |= (graph.find_modules_directly_imported_by(module) | package) - modules
-    files = {_file(root, module) for module in modules}
+    files = {root / script} | {_file(root, module) for module in modules}
     if "hopper_workflow.plotting" in modules:
-        files.add(root / "scripts/hopper_workflow/paper.mplstyle")
+        files.add(root / "src/hopper_cli/paper.mplstyle")
     return sorted(relative(file) for file in files)
 
 

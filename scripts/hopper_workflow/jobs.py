@@ -1,4 +1,4 @@
-"""Run a script as a Snakemake job: its log goes to the log file and to the screen."""
+"""Run a script as a Snakemake job: its log goes to the log file, what is wrong to the screen."""
 
 import logging
 import sys
@@ -31,9 +31,12 @@ def run(function: Callable[..., None]) -> None:
     sealed.
     """
     job = cast("Job", sys.modules["__main__"].__dict__["snakemake"])
-    handlers: list[logging.Handler] = [logging.StreamHandler()]
+    screen = logging.StreamHandler()
+    screen.setLevel(logging.WARNING)
+    handlers: list[logging.Handler] = [screen]
     handlers += [logging.FileHandler(path, mode="w", encoding="utf-8") for path in job.log]
     logging.basicConfig(level=logging.INFO, format=_FORMAT, handlers=handlers, force=True)
+    logging.captureWarnings(True)
     for library in ("fontTools", "matplotlib"):
         logging.getLogger(library).setLevel(logging.WARNING)
     arguments = {**job.input, **job.output, **job.params}
@@ -50,7 +53,14 @@ def run(function: Callable[..., None]) -> None:
     logging.info("%s: done", job.rule)
     logging.shutdown()
     for path in job.log:
-        logs.seal(path, job.output)
+        logs.seal(path, job.output, _files_read(job))
+
+
+def _files_read(job: Job) -> list[str]:
+    """Return the paths of a job's inputs but code."""
+    named = [value for name, value in job.input.items() if name != "code"]
+    lists = [[value] if isinstance(value, str) else value for value in named]
+    return [str(path) for paths in lists for path in paths]
 
 
 def progress(logger: logging.Logger, label: str, steps: int = 4) -> Progress:

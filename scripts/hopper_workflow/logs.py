@@ -1,16 +1,24 @@
-"""Logs of jobs: each ends with the checksums of what the job wrote and of the log itself."""
+"""Logs of jobs: each ends with the checksums of what the job read and wrote, and of itself."""
 
 import hashlib
 import re
 from collections.abc import Iterable
 from pathlib import Path
+from typing import NamedTuple
 
 _SEAL = "sha256 of the lines above: "
-_OUTPUT = re.compile(r"^sha256 ([0-9a-f]{64})  (.+)$", re.MULTILINE)
+_FILE = re.compile(r"^(read |)sha256 ([0-9a-f]{64})  (.+)$", re.MULTILINE)
 
 
 class LogError(Exception):
     """A log is missing, damaged, or that of a job that did not end well."""
+
+
+class Record(NamedTuple):
+    """Checksums by path of the files that a job read, code excepted, and of those it wrote."""
+
+    read: dict[str, str]
+    written: dict[str, str]
 
 
 def checksum(path: str | Path) -> str:
@@ -19,18 +27,19 @@ def checksum(path: str | Path) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def seal(log: str | Path, outputs: Iterable[str]) -> None:
+def seal(log: str | Path, outputs: Iterable[str], inputs: Iterable[str] = ()) -> None:
     """End the log of a job that is done, so that any later change of it or of an output shows."""
     path = Path(log)
     with path.open("a", encoding="utf-8", newline="\n") as file:
-        file.writelines(f"sha256 {checksum(output)}  {output}\n" for output in outputs)
+        file.writelines(f"read sha256 {checksum(one)}  {one}\n" for one in inputs)
+        file.writelines(f"sha256 {checksum(one)}  {one}\n" for one in outputs)
     digest = checksum(path)
     with path.open("a", encoding="utf-8", newline="\n") as file:
         file.write(f"{_SEAL}{digest}\n")
 
 
-def checksums(log: str | Path) -> dict[str, str]:
-    """Return the checksum of every output of the job, by its path.
+def record(log: str | Path) -> Record:
+    """Return what a sealed log tells of its job.
 
     Raises
     ------
@@ -45,5 +54,7 @@ def checksums(log: str | Path) -> dict[str, str]:
     body, _, rest = content.rpartition(_SEAL.encode())
     if not body or rest != hashlib.sha256(body).hexdigest().encode() + b"\n":
         raise LogError("is not as the job left it")
-    text = body.decode("utf-8")
-    return {output: digest for digest, output in _OUTPUT.findall(text)}
+    found = Record({}, {})
+    for kind, digest, file in _FILE.findall(body.decode("utf-8")):
+        (found.read if kind else found.written)[file] = digest
+    return found

@@ -3,6 +3,7 @@
 import errno
 import json
 import shutil
+import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -58,10 +59,9 @@ def write(
         references=PAPER,
         parameters=plain(parameters),
     )
-    encoding = {name: {"_FillValue": None} for name in dataset.variables}
     with replacing(path) as temporary:
         try:
-            dataset.to_netcdf(temporary, engine="netcdf4", format="NETCDF4", encoding=encoding)
+            _store(dataset, temporary)
         except (RuntimeError, PermissionError) as error:
             # What the library says of a full disk is "HDF error", or that permission is denied.
             free = shutil.disk_usage(temporary.parent).free
@@ -69,6 +69,20 @@ def write(
                 raise
             reason = f"{error}, with {free} bytes free on its disk: make room"
             raise OSError(errno.EIO, reason, str(path)) from error
+
+
+def _store(dataset: xr.Dataset, path: Path) -> None:
+    encoding = {name: {"_FillValue": None} for name in dataset.variables}
+    try:
+        dataset.to_netcdf(path, engine="netcdf4", format="NETCDF4", encoding=encoding)
+    except PermissionError:
+        if shutil.disk_usage(path.parent).free <= _LITTLE:
+            raise
+        # HDF5 says so where the file system has no locks: write where there are some.
+        with tempfile.TemporaryDirectory() as folder:
+            copy = Path(folder, path.name)
+            dataset.to_netcdf(copy, engine="netcdf4", format="NETCDF4", encoding=encoding)
+            shutil.copyfile(copy, path)
 
 
 def open_stored(path: str | Path) -> xr.Dataset:
@@ -79,6 +93,17 @@ def open_stored(path: str | Path) -> xr.Dataset:
     OSError
         If it is missing or not a netCDF file.
     """
+    try:
+        return _load(path)
+    except OSError:
+        if not Path(path).is_file():
+            raise
+        # Not a netCDF file, or one on a file system that has no locks for HDF5.
+        with tempfile.TemporaryDirectory() as folder:
+            return _load(shutil.copy2(path, folder))
+
+
+def _load(path: str | Path) -> xr.Dataset:
     with xr.open_dataset(path, engine="netcdf4") as stored:
         return stored.load()
 

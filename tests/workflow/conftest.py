@@ -6,6 +6,8 @@ import re
 import shutil
 import subprocess
 import sys
+import sysconfig
+import venv
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -29,8 +31,8 @@ COARSE: dict[str, Any] = {
     "spectra.fig_4_2.exact_modes": 12,
     "transient.fig_4_3.elapsed.points": 11,
     "transient.fig_4_3_norms.elapsed.points": 5,
-    "pseudospectrum.real.points": 8,
-    "pseudospectrum.imag.points": 8,
+    "pseudospectrum.fig_pseudospectrum.real.points": 8,
+    "pseudospectrum.fig_pseudospectrum.imag.points": 8,
     "sensitivity.frequencies.points": 11,
     "sensitivity.elapsed.points": 5,
     "friction_curves.fig_4_4.mu.points": 8,
@@ -62,20 +64,22 @@ COARSE: dict[str, Any] = {
 class Workflow:
     """A copy of the workflow and what can be done with it."""
 
-    def __init__(self, path: Path) -> None:
-        self.path = path
+    def __init__(self, path: Path, python: str | Path = sys.executable) -> None:
+        self.path, self.python = path, str(python)
 
     def snakemake(self, *arguments: str, **variables: str) -> subprocess.CompletedProcess[str]:
-        command = [sys.executable, "-m", "snakemake", "--cores", "2", *arguments]
+        command = [self.python, "-m", "snakemake", "--cores", "2", *arguments]
         environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", **variables}
         return subprocess.run(
             command, cwd=self.path, env=environment, capture_output=True, text=True, check=False
         )
 
-    def publish(self, what: str) -> subprocess.CompletedProcess[str]:
+    def publish(
+        self, what: str, *arguments: str, **variables: str
+    ) -> subprocess.CompletedProcess[str]:
         """Write the report or the crate."""
-        command = [sys.executable, "-m", f"hopper_workflow.publish.{what}"]
-        environment = {**os.environ, "PYTHONPATH": str(self.path / "scripts")}
+        command = [self.python, "-m", f"hopper_workflow.publish.{what}", *arguments]
+        environment = {**os.environ, "PYTHONPATH": str(self.path / "scripts"), **variables}
         return subprocess.run(
             command, cwd=self.path, env=environment, capture_output=True, text=True, check=False
         )
@@ -102,13 +106,7 @@ class Workflow:
         """Rules, with their figure if they have one, that a dry run would execute."""
         done = self.snakemake("-n", *targets)
         assert done.returncode == 0, done.stderr
-        blocks = re.split(r"\n(?=(?:local)?rule )", done.stdout)
-        found = set()
-        for block in blocks:
-            if match := re.match(r"(?:local)?rule (\w+):", block):
-                wildcards = re.search(r"wildcards: (.*)", block)
-                values = re.findall(r"=([^,\s]+)", wildcards[1]) if wildcards else []
-                found.add("/".join([match[1], *values]))
+        found = set(re.findall(r"^Job \d+: (\S+):", done.stdout, re.MULTILINE))
         return found - {"all"}
 
     def set(self, key: str, value: Any) -> None:
@@ -163,12 +161,15 @@ def built(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Workflow:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not complete.exists():
             shutil.rmtree(path, ignore_errors=True)
-            copy(path).build(**_recording(shared / "built"))
+            python = interpreter(shared / "built/python", RECORDER)
+            (shared / "built/loaded").mkdir(exist_ok=True)
+            workflow = Workflow(copy(path).path, python)
+            workflow.build(LOADED_BY=str(shared / "built/loaded"))
             complete.touch()
     return Workflow(path)
 
 
-# What Python runs at start-up where it is found: at its end a job notes the modules it has loaded.
+# At its end a job notes the modules it has loaded.
 RECORDER = """
 import atexit, os, sys
 
@@ -183,12 +184,16 @@ atexit.register(record)
 """
 
 
-def _recording(folder: Path) -> dict[str, str]:
-    """Return variables with which jobs note what they load, in files by rule, below a folder."""
-    (folder / "recorder").mkdir(exist_ok=True)
-    (folder / "loaded").mkdir(exist_ok=True)
-    (folder / "recorder/sitecustomize.py").write_text(RECORDER, encoding="utf-8")
-    return {"PYTHONPATH": str(folder / "recorder"), "LOADED_BY": str(folder / "loaded")}
+def interpreter(folder: Path, code: str) -> Path:
+    """Return a Python with the packages of this one that runs code whenever it starts.
+
+    Jobs inherit no variable by which that could be done.
+    """
+    venv.create(folder, clear=True, symlinks=True)
+    (site,) = folder.glob("lib/python*/site-packages")
+    (site / "packages.pth").write_text(sysconfig.get_path("purelib") + "\n", encoding="utf-8")
+    (site / "sitecustomize.py").write_text(code, encoding="utf-8")
+    return folder / "bin/python"
 
 
 @pytest.fixture(scope="session")

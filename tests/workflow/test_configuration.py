@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import yaml
 
-from hopper_workflow import artifacts, configuration
+from hopper_workflow import artifacts, configuration, strict_yaml
 from hopper import Hopper, solve_radial
 from tests.workflow.conftest import ROOT
 
@@ -42,14 +42,14 @@ BAD = [
     ("radial.fig_3_1.mu", [-0.1], r"'radial.fig_3_1.mu\[0\]': -0.1 is less than the minimum of 0"),
     ("radial.fig_3_1.points", 10.5, "'radial.fig_3_1.points': 10.5 is not of type 'integer'"),
     ("radial.fig_3_1.typo", 1, r"'radial.fig_3_1': .*'typo' was unexpected"),
-    ("radial.fig_9_9", {}, r"'radial': .*'fig_9_9' was unexpected"),
+    ("radial.fig_9_9", {}, "'radial.fig_9_9': 'geometry' is a required property"),
     ("spectra.fig_4_2.nodes", 401, "'spectra.fig_4_2.nodes': 401 is not a multiple of 2"),
     ("spectra.fig_4_2.nodes", 8, "'spectra.fig_4_2.nodes': 8 is less than the minimum of 16"),
     ("spectra.fig_4_2.coarse_nodes", 400, "coarse_nodes': 400 is not below nodes = 400"),
     ("spectra.fig_4_2.tolerance", 0, "tolerance': 0 is less than or equal to the minimum"),
-    ("pseudospectrum.real.stop", -20, "'pseudospectrum.real.stop': -20 must be above start"),
-    ("pseudospectrum.real.points", 1, "'pseudospectrum.real.points': 1 is less than the minimum"),
-    ("pseudospectrum.modes.paper.psi_scale", 0, "psi_scale': 0 is less than or equal"),
+    ("pseudospectrum.fig_pseudospectrum.real.stop", -20, "'pseudospectrum.fig_pseudospectrum.real.stop': -20 must be above start"),
+    ("pseudospectrum.fig_pseudospectrum.real.points", 1, "'pseudospectrum.fig_pseudospectrum.real.points': 1 is less than the minimum"),
+    ("pseudospectrum.fig_pseudospectrum.formulations.paper.psi_scale", 0, "psi_scale': 0 is less than or equal"),
     ("stability_map.chunks", 0, "'stability_map.chunks': 0 is less than the minimum of 1"),
     ("extra", 1, r"'top level': .*'extra' was unexpected"),
 ]  # fmt: skip
@@ -72,7 +72,7 @@ def test_a_missing_key_is_named(config):
 
 def test_what_an_older_configuration_lacks_or_need_not_have(config):
     shipped = copy.deepcopy(config)
-    del config["claims"]["linear"]["folds"]
+    del config["claims"], config["borders"]["check"]
     config["domain_angle"]["tangency_points"] = 25
     configuration.check(config, SCHEMA)
     assert configuration.bring_up_to_date(config, SCHEMA) == [
@@ -81,6 +81,24 @@ def test_what_an_older_configuration_lacks_or_need_not_have(config):
     ]
     assert config == shipped
     assert configuration.bring_up_to_date(config, SCHEMA) == []
+
+
+NAME = "abcdefghijklmnopqrstuvwxyz012345"
+
+
+def test_as_many_hoppers_as_the_schema_allows_can_be_read(config, tmp_path):
+    longest = {"description": "é" * 120, "delta_deg": 40.123456, "half_angle_deg": 20.123456}
+    config["cases"] = [
+        {**config["cases"][0], **longest, "name": f"case_{count}_{NAME}"}
+        for count in range(100, 300)
+    ]
+    path = tmp_path / "config.yaml"
+    path.write_text(yaml.safe_dump(config, allow_unicode=True), encoding="utf-8")
+    configuration.check_file(path, SCHEMA)
+    configuration.check(strict_yaml.read(path), SCHEMA)
+    path.write_text(path.read_text(encoding="utf-8") + "#" * 80_000, encoding="utf-8")
+    with pytest.raises(configuration.ConfigurationError, match="has more than 80000 characters"):
+        configuration.check_file(path, SCHEMA)
 
 
 @pytest.mark.workflow

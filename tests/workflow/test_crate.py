@@ -45,6 +45,7 @@ def test_every_file_is_there_with_its_checksum(crate, archive):
             assert entity["sha256"] == hashlib.sha256(data).hexdigest(), entity.id
             assert entity["contentSize"] == str(len(data))
             assert entity["encodingFormat"]
+        assert {member.external_attr >> 16 for member in content.infolist()} == {0o100644}
 
 
 def test_the_run_has_its_workflow_inputs_and_results(crate, run):

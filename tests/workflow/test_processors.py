@@ -11,6 +11,7 @@ import pytest
 from hopper_workflow import artifacts
 from tests.figures import numbers
 from tests.reliability import record
+from tests.workflow.conftest import interpreter
 
 pytestmark = pytest.mark.workflow
 _AVX512 = "X86_V4 AVX512_ICL AVX512_SPR"
@@ -29,12 +30,15 @@ SOME = (
 
 
 def build(workflow, processor, *targets):
-    workflow.build(
-        *targets,
-        OPENBLAS_CORETYPE=processor,
-        NPY_DISABLE_CPU_FEATURES=PROCESSORS[processor],
-        PYTHONWARNINGS="ignore",
-    )
+    """Build with a Python that sets the variables by itself: from a user jobs do not take them."""
+    variables = {
+        "OPENBLAS_CORETYPE": processor,
+        "NPY_DISABLE_CPU_FEATURES": PROCESSORS[processor],
+        "PYTHONWARNINGS": "ignore",
+    }
+    code = f"import os; os.environ.update({variables})"
+    workflow.python = str(interpreter(workflow.path.parent / f"python {processor}", code))
+    workflow.build(*targets)
 
 
 @pytest.mark.soak

@@ -3,15 +3,28 @@
 # two equal keys, and runs as a program what has the key __use_yte__
 # =================================================================================================
 
+import os
 import shlex
 import sys
 
 from snakemake.exceptions import WorkflowError
+from snakemake.logging import logger
 
 # The host of a module keeps its sys.path.
 sys.path.append(str(ROOT / "scripts"))
-from hopper_workflow import code_graph, configuration, requests
-from hopper_workflow.claims.words import paths_of, read_claims
+from hopper_workflow import (
+    cases,
+    code_graph,
+    configuration,
+    console,
+    effective,
+    entries,
+    live,
+    requests,
+    surroundings,
+    targets,
+)
+from hopper_workflow.claims.words import half_angles_in, paths_of, read_claims
 
 sys.path.remove(str(ROOT / "scripts"))
 
@@ -21,11 +34,29 @@ SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
 if Path(sys.executable).exists():
     sys.executable = shlex.quote(sys.executable)
 
-# In a module the configuration is somebody else's, of which we know only our part.
+# In a module environment and configuration are somebody else's, of which we know only our part.
 if not workflow.modifier.skip_configfile:
+    console.be_brief(logger)
+    if foreign := surroundings.set_aside(os.environ):
+        logger.info(f"Set aside from the environment: {' '.join(foreign)}")
+    settled = surroundings.settled(os.environ)
+    os.environ.clear()
+    os.environ.update(settled)
+    if problem := surroundings.refused(workflow.resource_settings.overwrite_threads):
+        raise WorkflowError(problem)
+    if workflow.config_settings.config:
+        raise WorkflowError(
+            "--config cannot hold the sections of a configuration: write what is to change into a "
+            "file and give it with --configfile"
+        )
     try:
         for path in [Path("config.yaml"), *workflow.overwrite_configfiles]:
             if path.exists():
                 configuration.check_file(path, SCHEMA)
     except configuration.ConfigurationError as error:
         raise WorkflowError(str(error)) from None
+
+
+onstart:
+    live.leave_record()
+    effective.leave_record(config, SCHEMA)

@@ -4,11 +4,14 @@ Follows the Workflow Run Crate profile: one action, the workflow as its instrume
 configuration and published data as its objects, everything the workflow made as its results.
 """
 
+import hashlib
 import json
 import mimetypes
+import zipfile
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from datetime import UTC, datetime
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -16,16 +19,18 @@ from rocrate.model.contextentity import ContextEntity
 from rocrate.model.entity import Entity
 from rocrate.rocrate import ROCrate
 
-from hopper_workflow import strict_yaml
+from hopper_workflow import effective, strict_yaml
 from hopper_workflow.artifacts import checksum, replacing
-from hopper_workflow.publish import run
+from hopper_workflow.publish import locks, run
 
 WORKFLOW, CONFIGURATION, CITATION = Path("Snakefile"), Path("config.yaml"), Path("CITATION.cff")
-# With these the workflow can be run again from the crate alone.
+SCHEMA = Path("workflow/schemas/config.schema.yaml")
+# With these the workflow can be run, tested and verified from the crate alone.
 CODE = (
-    *("workflow", "scripts", "src", "envs", "profiles", "resources"),
-    *("Makefile", "pyproject.toml", "requirements-build.lock", "requirements.lock"),
-    *("README.md", "config/README.md", "LICENSE", str(CITATION)),
+    *("workflow", "scripts", "src", "envs", "profiles", "resources", "tests", "benchmarks", "docs"),
+    *(".ci", ".github", ".gitignore", ".snakemake-workflow-catalog.yml"),
+    *("Makefile", "pyproject.toml", *locks.LOCKS.values()),
+    *("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "config/README.md", "LICENSE", str(CITATION)),
 )
 FORMATS = {".nc": "application/netcdf", ".yaml": "application/yaml", ".py": "text/x-python"}
 RUN_CONTEXT = "https://w3id.org/ro/terms/workflow-run/context"
@@ -37,18 +42,20 @@ PROFILES = {
 }
 
 
-def write_crate(path: Path) -> None:
+def write_crate(path: Path, configuration: Path | None) -> None:
     """Write the finished run as a zipped RO-Crate; its metadata depend on the run alone.
+
+    Its config.yaml is the configuration the run had, wherever that came from.
 
     Raises
     ------
     RunError
         If there is no finished run; an older crate stays as it is.
     """
-    made = run.products()
+    made = run.products(configuration)
     data = sorted({source for sources in made.values() for source in sources} - set(made))
-    latest = max(file.stat().st_mtime for file in made)
-    finished = datetime.fromtimestamp(latest, tz=UTC).isoformat(timespec="seconds")
+    latest = datetime.fromtimestamp(max(file.stat().st_mtime for file in made), tz=UTC)
+    finished = latest.isoformat(timespec="seconds")
 
     crate = ROCrate(version="1.1")
     crate.metadata.extra_contexts.append(RUN_CONTEXT)
@@ -56,9 +63,11 @@ def write_crate(path: Path) -> None:
         WORKFLOW, WORKFLOW, main=True, lang="snakemake", properties=_properties(WORKFLOW)
     )
     _describe(crate, workflow, strict_yaml.read_own(CITATION), finished)
-    _add_files(crate, [file for file in _files_below(CODE) if file not in data])
+    code = [file for file in _files_below(CODE) if file not in data]
+    _add_files(crate, [*code, *sorted(Path("logs").rglob("*.log"))])
     crate.get("README.md")["about"] = crate.root_dataset
-    files = _add_files(crate, [CONFIGURATION, *data, *made])
+    files = _add_files(crate, [*data, *made])
+    files[CONFIGURATION] = _add_configuration(crate, configuration)
     for file, sources in made.items():
         if sources:
             files[file]["isBasedOn"] = _compact([files[source] for source in sources])
@@ -68,7 +77,7 @@ def write_crate(path: Path) -> None:
         outputs[file.parts[0]].append(files[file])
     for end, found in (("input", inputs), ("output", dict(sorted(outputs.items())))):
         workflow[end] = [_parameter(crate, name, values) for name, values in found.items()]
-    action = crate.add_action(
+    crate.root_dataset["mentions"] = crate.add_action(
         workflow,
         identifier="#run",
         object=[file for values in inputs.values() for file in values],
@@ -79,9 +88,31 @@ def write_crate(path: Path) -> None:
             "endTime": finished,
         },
     )
-    crate.root_dataset["mentions"] = action
     with replacing(path) as temporary:
         crate.write_zip(temporary)
+        _settle(temporary, latest)
+
+
+def _settle(path: Path, moment: datetime) -> None:
+    """Let all who unpack a zip read its files, and let none of these be newer than another."""
+    with zipfile.ZipFile(path, "a") as archive:
+        for member in archive.infolist():
+            member.external_attr = 0o100644 << 16
+            member.date_time = moment.timetuple()[:6]
+        archive.comment = b"RO-Crate"  # or else the list of members is not written anew
+
+
+def _add_configuration(crate: ROCrate, path: Path | None) -> Entity:
+    content = CONFIGURATION.read_bytes()
+    if path is not None:
+        content = effective.text(effective.merged(path, SCHEMA)).encode()
+    properties = {
+        "name": CONFIGURATION.name,
+        "encodingFormat": FORMATS[CONFIGURATION.suffix],
+        "contentSize": str(len(content)),
+        "sha256": hashlib.sha256(content).hexdigest(),
+    }
+    return crate.add_file(BytesIO(content), CONFIGURATION, properties=properties)
 
 
 def _add_files(crate: ROCrate, files: Iterable[Path]) -> dict[Path, Entity]:

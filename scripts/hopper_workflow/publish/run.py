@@ -1,21 +1,26 @@
-"""The finished run in the current directory, as Snakemake knows it."""
+"""The finished run in the current directory: what the workflow makes, and what its jobs wrote."""
 
 import csv
+import os
+import shlex
 import subprocess
 import sys
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from hopper_workflow import logs
+from hopper_workflow import effective, logs, surroundings
 
 DATA = {".nc", ".csv"}  # suffixes of inputs that hold data; all other inputs are code
+RESULTS = {*DATA, ".json", ".html", ".md", ".png", ".pdf"}
+PUBLISHED = ("results/report.html", "results/sbom.cdx.json", "figures/README.md")
+CHECKS = Path("results/figure_checks")
 
 
 class RunError(Exception):
     """There is no finished run to publish; the message names the command that makes one."""
 
 
-def products() -> dict[Path, list[Path]]:
+def products(configuration: Path | None) -> dict[Path, list[Path]]:
     """Return every file the workflow makes, sorted, and the files of data it was made from.
 
     Raises
@@ -24,59 +29,73 @@ def products() -> dict[Path, list[Path]]:
         If a file is missing, damaged or older than what it depends on, or the configuration is not
         valid.
     """
-    rows = summary()
+    summary = snakemake(configuration, "--summary")
+    rows = list(csv.DictReader(summary.splitlines(), delimiter="\t"))
+    made = sorted(row["output_file"] for row in rows)
     stale = [row["output_file"] for row in rows if row["plan"] != "no update"]
     if stale:
+        advice = f"make CONFIG={shlex.quote(str(configuration))}" if configuration else "make"
         raise RunError(
             f"{len(stale)} of {len(rows)} results are missing or out of date, first {stale[0]}: "
-            "build them with: make"
+            f"build them with: {advice}"
         )
-    damaged = damages(rows)
-    if damaged:
+    jobs = records()
+    if damaged := damages(made, jobs):
         raise RunError(
             f"{len(damaged)} of {len(rows)} results are damaged, first {next(iter(damaged))}: "
             "list them with: make verify"
         )
+    sources = {path: sorted(job.read) for job in jobs for path in job.written}
     return {
-        Path(row["output_file"]): [
-            Path(name) for name in row["input-file(s)"].split(",") if Path(name).suffix in DATA
-        ]
-        for row in sorted(rows, key=lambda row: row["output_file"])
+        Path(path): [Path(name) for name in sources[path] if Path(name).suffix in DATA]
+        for path in made
     }
 
 
-def summary() -> list[dict[str, str]]:
-    """Return Snakemake's detailed summary, a row for every file the workflow makes.
+def existing() -> list[str]:
+    """Return the paths, sorted, of what jobs have made here, without what is published of it."""
+    found = [path for folder in ("results", "figures") for path in Path(folder).rglob("*.*")]
+    return sorted(
+        str(path)
+        for path in found
+        if path.suffix in RESULTS
+        and not path.name.startswith(".")
+        and str(path) not in PUBLISHED
+        and CHECKS not in path.parents
+    )
 
-    Raises
-    ------
-    RunError
-        If the configuration is not valid.
-    """
-    return list(csv.DictReader(snakemake("--detailed-summary").splitlines(), delimiter="\t"))
 
-
-def damages(rows: Iterable[Mapping[str, str]]) -> dict[str, str]:
-    """Return what is wrong with files of the summary that exist, by path; nothing for sound ones.
-
-    A file is sound if the log of its job is, and holds its checksum.
-    """
-    found = {}
-    for row in rows:
-        path, log = row["output_file"], row["log-file(s)"]
-        if not Path(path).exists():
-            continue
+def records() -> list[logs.Record]:
+    """Return what the sound logs tell of their jobs; other logs vouch for nothing."""
+    found = []
+    for path in sorted(Path("logs").rglob("*.log")):
         try:
-            written = logs.checksums(log).get(path)
-        except logs.LogError as error:
-            found[path] = f"not vouched for: its log {log} {error}"
-        else:
-            if logs.checksum(path) != written:
-                found[path] = "damaged or foreign: not what its job wrote"
+            found.append(logs.record(path))
+        except logs.LogError:
+            continue
     return found
 
 
-def snakemake(*arguments: str) -> str:
+def damages(paths: Iterable[str], jobs: Iterable[logs.Record]) -> dict[str, str]:
+    """Return what is wrong with files that exist, by path; nothing for sound ones.
+
+    A file is sound if a log holds its checksum. Where Snakemake keeps its own records does not
+    matter: they may be gone.
+    """
+    written: dict[str, set[str]] = {}
+    for job in jobs:
+        for path, digest in job.written.items():
+            written.setdefault(path, set()).add(digest)
+    found = {}
+    for path in paths:
+        if path not in written:
+            found[path] = "not vouched for: no log tells of it, or its log is damaged"
+        elif Path(path).exists() and logs.checksum(path) not in written[path]:
+            found[path] = "damaged or foreign: not what its job wrote"
+    return found
+
+
+def snakemake(configuration: Path | None, *arguments: str) -> str:
     """Run Snakemake here and return what it prints to standard output.
 
     Raises
@@ -84,17 +103,24 @@ def snakemake(*arguments: str) -> str:
     RunError
         With Snakemake's own message if it fails.
     """
-    command = [sys.executable, "-m", "snakemake", *arguments]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    command = [sys.executable, "-m", "snakemake", *arguments, *effective.option(configuration)]
+    environment = surroundings.settled(os.environ)
+    done = subprocess.run(
+        command, env=environment, capture_output=True, encoding="utf-8", check=False
+    )
     if done.returncode != 0:
         raise RunError(f"snakemake {' '.join(arguments)} failed:\n{done.stderr.strip()}")
     return done.stdout
 
 
-def publish(write: Callable[[Path], None], path: str) -> None:
-    """Write something about the run to ``path``; end in one line and exit code 1 if it can't be."""
+def publish(write: Callable[[Path, Path | None], None], path: str) -> None:
+    """Write something about the run to ``path``; end in one line and exit code 1 if it can't be.
+
+    The command's argument, if there is one, is a configuration file in place of the run's own.
+    """
+    configuration = Path(sys.argv[1]) if len(sys.argv) > 1 else effective.of_last_run()
     try:
-        write(Path(path))
+        write(Path(path), configuration)
     except (RunError, OSError) as error:
         sys.exit(f"{path} not written: {error}")
     print(path)
