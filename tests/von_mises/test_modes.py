@@ -125,7 +125,7 @@ def test_a_tolerance_saves_meshes():
 
 def test_bad_input():
     for tolerance in (0, 1e-5, float("nan"), "fine"):
-        with pytest.raises(InvalidParameterError, match="^tolerance = "):
+        with pytest.raises(InvalidParameterError, match=r"^tolerance = "):
             low_modes(radial(40, 10, 0.1), tolerance)  # type: ignore[arg-type]
     with pytest.raises(InvalidParameterError, match="size = 20 half nodes: give one of"):
         low_modes(radial(40, 10, 0.1), first=20)
