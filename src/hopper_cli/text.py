@@ -99,6 +99,7 @@ ENDS: "dict[IntervalEnd, str]" = {
     "stress_not_positive": "no positive stress beyond",
     "not_converged": "not resolved beyond",
     "steepest_looked_at": "not looked at beyond",
+    "tension": "tensile on the axis beyond",
 }
 
 

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from math import inf, radians
+from typing import Literal
 
 from hopper.arguments import Radians, checked
 from hopper.assessment.propagation import ROUNDING
@@ -26,7 +27,7 @@ class NeutralPoint:
     """A delta (radians) at which the spectral abscissa vanishes, and what is neutral there."""
 
     delta: Quantity
-    governed_by: Governor
+    governed_by: Governor | Literal["strip"]
     parity: Parity | None
 
     __repr__ = brief("delta deg", "governed_by", "parity")

@@ -110,7 +110,7 @@ def modes_on(solution: RadialSolution, size: int) -> ResolvedModes:
     Errors as :func:`low_modes`.
     """
     before = SIZES[_index(size) - 1]
-    coarse, fine = _eigenvalues(solution, before), _eigenvalues(solution, size)
+    coarse, fine = upper_eigenvalues(solution, before), upper_eigenvalues(solution, size)
     change = np.maximum.accumulate(partner_changes(fine, coarse))
     cancellation = coefficients_on(solution, size).cancellation
     rounding = _ROUNDING * np.finfo(float).eps * size**2 * sqrt(cancellation)
@@ -138,9 +138,13 @@ def _first_size(solution: RadialSolution, tolerance: float) -> int:
     return SIZES[min(max(round(index), 1), len(SIZES) - 1)]
 
 
+@checked
 @lru_cache(maxsize=16)
-def _eigenvalues(solution: RadialSolution, size: int) -> Complex:
-    """Return the eigenvalues with Im >= 0 of a mesh, by increasing modulus."""
+def upper_eigenvalues(solution: RadialSolution, size: int) -> Complex:
+    """Return the eigenvalues with Im >= 0 of a mesh, by increasing modulus; many unresolved.
+
+    Without that of the flow rate. Errors as :func:`hopper.von_mises.collocation.mode_matrix`.
+    """
     grid = half_grid(size, solution.hopper.half_angle)
     matrix = without_flow_rate(assemble(grid, coefficients_on(solution, size)))
     values = np.linalg.eigvals(matrix).astype(np.complex128)

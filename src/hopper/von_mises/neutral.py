@@ -6,6 +6,7 @@ borders 35.26 and 60 deg of hyperbolic flow on the axis, or nowhere.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import radians
 
 import numpy as np
 from scipy.optimize import brentq
@@ -25,7 +26,10 @@ from hopper.yield_conditions import VON_MISES
 
 # Radians. Points of a scan; distance from the borders, where the laws become singular; first and
 # largest distance from a guess at which the other sign is looked for.
-_SCAN = AXIS_HYPERBOLIC + np.radians([0.02, 0.1, 0.4, 1.2, 2.5, 4.5, 7, 10, 14, 18, 21.5, 24.7])
+SCAN: tuple[float, ...] = tuple(
+    AXIS_HYPERBOLIC + radians(step)
+    for step in (0.02, 0.1, 0.4, 1.2, 2.5, 4.5, 7, 10, 14, 18, 21.5, 24.7)
+)
 _MARGIN = 1e-5
 _FIRST_REACH, _LAST_REACH = 2e-4, 0.1
 _ROOT_TOLERANCE = 1e-13
@@ -133,7 +137,7 @@ def _around(at: Callable[[float], Growth], guess: float) -> tuple[float, float] 
 def _scan(at: Callable[[float], Growth]) -> tuple[float, float] | None:
     """Return an unstable and a stable delta next to each other; None if there are none."""
     unstable = None
-    for delta in _SCAN.tolist():
+    for delta in SCAN:
         try:
             value = at(delta).abscissa
         except HopperError:
