@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
-from matplotlib.colors import LinearSegmentedColormap, ListedColormap, SymLogNorm
+from matplotlib.colors import LinearSegmentedColormap, SymLogNorm
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
@@ -36,11 +36,12 @@ def draw(
     most = 2 if len(maps) <= _FEW else 4
     figure, axes = plotting.grid(len(maps), most, height=2.5, sharex=True, sharey=True)
     for axis, path, border, title in zip(axes, maps, borders, panels, strict=True):
-        whole = artifacts.read(path)
+        whole, known = artifacts.read(path), artifacts.read(border)
         data = domains.thinned(whole, _MOST)
-        _mark_undecided(axis, data)
-        mesh = _cells(axis, data, data.abscissa, cmap=_CMAP, norm=norm)
-        known = artifacts.read(border)
+        # Beyond its end each row is continued: what lies there is drawn over it, with its border.
+        continued = data.abscissa.to_pandas().bfill(axis=1).ffill(axis=1)
+        mesh = _cells(axis, data, continued, cmap=_CMAP, norm=norm)
+        _mark_undecided(axis, data, known)
         domains.hatch_unreached(axis, known)
         domains.draw_borders(axis, known)
         axis.set_xlim(float(whole.delta.min()), float(whole.delta.max()))
@@ -69,18 +70,20 @@ def _cells(axis: Axes, data: xr.Dataset, values: ArrayLike, **style: Any) -> Qua
     )
 
 
-def _mark_undecided(axis: Axes, data: xr.Dataset) -> None:
-    """Grey, by reason, wherever there is no verdict."""
+def _mark_undecided(axis: Axes, data: xr.Dataset, known: xr.Dataset) -> None:
+    """Grey, by reason, wherever there is no verdict; white where the wall is rougher than delta."""
+    delta, limit = known.delta.values, np.nan_to_num(known.limit_phi.values)
+    axis.fill_between(delta, limit, delta, color=_NO_SOLUTION, lw=0, label="no radial solution")
+    axis.fill_between(delta, delta, 90, color="white", lw=0)
     for name, (color, label) in _GREYS.items():
-        mask = np.where(data.region == name, 1.0, np.nan)
-        if np.isnan(mask).all():
-            continue
-        _cells(axis, data, mask, cmap=ListedColormap([color]))
-        axis.fill([], [], color=color, label=label)
+        mask = (data.region == name).to_numpy().T.astype(float)
+        if mask.any():
+            axis.contourf(data.delta, data.phi, mask, levels=[0.5, 1.5], colors=[color])
+            axis.fill([], [], color=color, label=label)
 
 
+_NO_SOLUTION = "0.80"
 _GREYS = {
-    "no_radial_solution": ("0.80", "no radial solution"),
     "non_positive_stress": ("0.62", "stress not positive"),
     "not_converged": ("0.3", "not resolved"),
 }

@@ -14,6 +14,7 @@ from hopper.domain.borders import (
     stable_area,
     stable_outline,
     tangency_friction,
+    traced_borders,
 )
 from tests.stability.witnesses import wall_tangency_friction
 
@@ -228,3 +229,17 @@ def test_area_that_radial_flow_reaches():
     # Corners at delta = 0.5 and 0.6 lie at the level: chord from (0.3, 0.1) to (0.5, 0.15).
     expected = 0.5 * 0.2 * (0.1 + 0.15) + 0.1 * 0.15 - 0.5 * 0.1 * 0.1
     assert reached == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize("geometry", ["cone"])
+def test_traced_borders_have_no_corner_between_their_points(geometry):
+    """A limit over an even grid is off by degrees where a fold takes over, traced by 0.05."""
+    even = np.radians(np.linspace(23, 29, 7))
+    traced = traced_borders(geometry, radians(30), even)
+    assert set(even) <= set(traced.delta)
+    assert np.all(np.diff(traced.delta) > 0)
+    assert len(traced.end) == traced.delta.size
+    between = np.radians([24.6, 24.9, 25.3, 26.6])
+    exact = borders(geometry, radians(30), between).limit
+    drawn = np.interp(between, traced.delta, traced.limit)
+    assert np.degrees(np.abs(drawn - exact)).max() < 0.05

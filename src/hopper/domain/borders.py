@@ -7,14 +7,14 @@ so that no radial flow reaches the wall although stress and its stability are re
 """
 
 from dataclasses import dataclass
-from math import pi
+from math import pi, radians
 from typing import Self
 
 import numpy as np
 from scipy.optimize import brentq
 
 from hopper.arguments import Radians, RealRow, checked
-from hopper.arrays import Array
+from hopper.arrays import Array, Mask
 from hopper.brief import brief
 from hopper.domain.growth import ROOT_TOLERANCE
 from hopper.domain.neutral_curve import NeutralCurve
@@ -25,6 +25,10 @@ from hopper.radial.family import family, neighbour
 from hopper.radial.friction_limit import friction_limit
 from hopper.radial.solution import solution_of
 from hopper.stability.tilted import require_mohr_coulomb, tangency_angle
+
+# How far a border may be off the chord of its neighbours, radians, and how often an interval is
+# halved.
+_OFF_CHORD, _HALVINGS = radians(0.03), 5
 
 
 @checked
@@ -160,6 +164,61 @@ def borders(geometry: Geometry, half_angle: Radians, deltas: RealRow) -> Borders
             *(np.nan if phi is None else phi for phi in levels),
         )
     return Borders(delta, table[0], table[1], tuple(ends), table[2], table[3])
+
+
+@checked
+def traced_borders(geometry: Geometry, half_angle: Radians, deltas: RealRow) -> Borders:
+    """Return the borders over ``deltas`` (radians), and over more where they bend or begin.
+
+    An interval is halved, up to five times, while the chord beside it is off by more than 0.03
+    degrees, or a border begins in it.
+
+    Raises
+    ------
+    ConvergenceError
+        As :func:`borders`.
+    """
+    found = borders(geometry, half_angle, deltas)
+    for _ in range(_HALVINGS):
+        rough = _rough(found)
+        if not rough.any():
+            break
+        middles = (found.delta[:-1] + found.delta[1:])[rough] / 2
+        found = _merged(found, borders(geometry, half_angle, middles))
+    return found
+
+
+def _merged(one: Borders, other: Borders) -> Borders:
+    """Return two results as one, over increasing delta."""
+    order = np.argsort(np.concatenate([one.delta, other.delta]))
+
+    def both(name: str) -> Array:
+        return np.concatenate([getattr(one, name), getattr(other, name)])[order]
+
+    ends = (*one.end, *other.end)
+    return Borders(
+        both("delta"),
+        both("limit"),
+        both("limit_error"),
+        tuple(ends[index] for index in order),
+        both("tangency"),
+        both("singular_velocity"),
+    )
+
+
+def _rough(found: Borders) -> Mask:
+    """Return the intervals in which a line between neighbours is not the border, shape (n - 1,)."""
+    x = found.delta
+    rough = np.zeros(x.size - 1, dtype=bool)
+    for y in (found.limit, found.tangency, found.singular_velocity):
+        known = np.isfinite(y)
+        rough |= known[:-1] != known[1:]
+        chord = y[:-2] + (y[2:] - y[:-2]) * (x[1:-1] - x[:-2]) / (x[2:] - x[:-2])
+        with np.errstate(invalid="ignore"):
+            off = np.abs(y[1:-1] - chord) > _OFF_CHORD
+        rough[:-1] |= off
+        rough[1:] |= off
+    return rough
 
 
 @checked
