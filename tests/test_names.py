@@ -137,6 +137,7 @@ def dataclasses_of(package):
 @pytest.fixture(scope="module")
 def results():
     """One of each public dataclass, by its name, as it comes out of the numerics."""
+    from hopper.assessment.coupled import describe_coupled
     from hopper.assessment.neutral import assess_neutral
     from hopper.domain.borders import borders
     from hopper.domain.growth import Hoppers, root
@@ -209,7 +210,7 @@ def results():
         branch_up_to(cone, 0.1), *stacked_starts([solution], ["symmetric"]),
         piece, piece.end, solution.member.grid.map, form.panels[0],
         *sign_changes(np.cos, [1.0, 2.0], 0.1),
-        judged, judged.type, judged.growth, judged.growth and judged.growth.strips, judged.modes,
+        describe_coupled(elliptic), judged, judged.type, judged.growth, judged.growth and judged.growth.strips, judged.modes,
         effects, effects.rays, high_frequency(elliptic),
         *coupled_coefficients(von_mises, [von_mises.member.grid]),
         neutral_point(radians(10), 0.1), coupled_neutral_curve(radians(10), 0.1, 0.05),
@@ -240,7 +241,7 @@ def test_angles_are_shown_in_degrees(results):
 WITH_DATASET = {
     "RadialSolution", "VelocityField", "LinearStability", "MeshSpectrum", "FilteredSpectrum",
     "Pseudospectrum", "Sweep", "NeutralCurve", "Borders", "Assessment", "RadialAssessment",
-    "StabilityAssessment",
+    "StabilityAssessment", "CoupledStability",
 }  # fmt: skip
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import atan, isnan
+from math import atan
 
 import numpy as np
 
@@ -18,10 +18,11 @@ from hopper.errors import HopperError
 from hopper.problem import Hopper
 from hopper.quantity import Quantity
 from hopper.radial.solution import RadialSolution, solve_radial
-from hopper.stability.modes import Governor
+from hopper.stability.collocation import Parity
 from hopper.values import require_angle
 from hopper.von_mises.characteristics import TENSION
 from hopper.von_mises.characteristics import Kind as Type
+from hopper.von_mises.growth import Governor
 from hopper.von_mises.modes import ResolvedModes, upper_eigenvalues
 from hopper.von_mises.neutral import SCAN, neutral_point
 from hopper.von_mises.verdict import Kind, Verdict, flow_limit, judge, judge_solution
@@ -64,17 +65,19 @@ class CoupledStability:
     @property
     def type(self) -> Type | None:
         """Type of the equations, None without a radial flow."""
-        return self.judged.type and self.judged.type.kind
+        return None if self.judged.type is None else self.judged.type.kind
 
     @property
     def strips(self) -> Array | None:
         """Intervals of Re(lambda) of the modes of high frequency, shape (k, 2)."""
-        return self.judged.growth and self.judged.growth.strips.intervals
+        growth = self.judged.growth
+        return None if growth is None else growth.strips.intervals
 
     @property
-    def governed_by(self) -> str | None:
-        """Whether the abscissa is due to a mode or a strip."""
-        return self.judged.growth and self.judged.growth.governed_by
+    def governed_by(self) -> Governor | None:
+        """What the abscissa is due to: a mode, or the upper strip."""
+        growth = self.judged.growth
+        return None if growth is None else growth.governed_by
 
 
 @checked
@@ -193,10 +196,8 @@ def _end(
         found = neutral_point(*wall, guess=sum(bracket) / 2)
         if found and bracket[0] < found.delta < bracket[1]:
             delta = Quantity(found.delta, found.error_estimate)
-            if isnan(found.frequency):
-                return delta, "neutral", NeutralPoint(delta, "strip", None)
-            governor: Governor = "complex mode" if found.frequency else "real mode"
-            return delta, "neutral", NeutralPoint(delta, governor, "symmetric")
+            parity: Parity | None = None if found.governed_by == "strip" else "symmetric"
+            return delta, "neutral", NeutralPoint(delta, found.governed_by, parity)
     while abs(inside - outside) > COARSE:
         middle = (inside + outside) / 2
         found_there = verdict(middle)

@@ -19,6 +19,7 @@ from hopper.von_mises.high_frequency import HighFrequency, high_frequency
 from hopper.von_mises.modes import SIZES, ResolvedModes, low_modes, modes_on
 from hopper.von_mises.strips import Strips, strips
 
+Governor = Literal["mode", "strip"]
 # Modes that the test looks at: no fewer than these, and two beats of the families.
 _LEAST_TESTED = 8
 # Part of the abscissa that unresolved modes may add.
@@ -48,7 +49,7 @@ class Growth:
     modes: ResolvedModes
     strips: Strips
     abscissa: float
-    governed_by: Literal["mode", "strip"]
+    governed_by: Governor
     frequency: float
     error_estimate: float
     overshoot: float

@@ -6,7 +6,7 @@ borders 35.26 and 60 deg of hyperbolic flow on the axis, or nowhere.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import radians
+from math import isnan, radians
 
 import numpy as np
 from scipy.optimize import brentq
@@ -19,7 +19,7 @@ from hopper.problem import Hopper
 from hopper.radial.solution import RadialSolution, solve_radial
 from hopper.values import require_angle
 from hopper.von_mises.characteristics import AXIS_HYPERBOLIC, TENSION
-from hopper.von_mises.growth import Growth, growth, growth_of, resolved_growth
+from hopper.von_mises.growth import Governor, Growth, growth, growth_of, resolved_growth
 from hopper.von_mises.high_frequency import high_frequency
 from hopper.von_mises.modes import SIZES, low_modes, modes_on
 from hopper.yield_conditions import VON_MISES
@@ -64,6 +64,11 @@ class NeutralDelta:
     size: int
 
     __repr__ = brief("delta deg", "friction_angle deg", "error_estimate deg", "frequency")
+
+    @property
+    def governed_by(self) -> Governor:
+        """Whether a mode or the strip is neutral."""
+        return "strip" if isnan(self.frequency) else "mode"
 
 
 @checked
