@@ -140,6 +140,7 @@ def results():
     from hopper.assessment.coupled import describe_coupled
     from hopper.assessment.neutral import assess_neutral
     from hopper.domain.borders import borders
+    from hopper.domain.coupled import coupled_borders, sweep_coupled
     from hopper.domain.growth import Hoppers, root
     from hopper.domain.neutral_points import StableDeltas, StableInterval
     from hopper.domain.stability_map import sweep_friction
@@ -210,7 +211,9 @@ def results():
         branch_up_to(cone, 0.1), *stacked_starts([solution], ["symmetric"]),
         piece, piece.end, solution.member.grid.map, form.panels[0],
         *sign_changes(np.cos, [1.0, 2.0], 0.1),
-        describe_coupled(elliptic), judged, judged.type, judged.growth, judged.growth and judged.growth.strips, judged.modes,
+        describe_coupled(elliptic), judged, judged.type, judged.growth, judged.modes,
+        judged.growth and judged.growth.strips,
+        coupled_borders(radians(10), [radians(30)]), sweep_coupled(hard, [0.1]),
         effects, effects.rays, high_frequency(elliptic),
         *coupled_coefficients(von_mises, [von_mises.member.grid]),
         neutral_point(radians(10), 0.1), coupled_neutral_curve(radians(10), 0.1, 0.05),

@@ -203,7 +203,7 @@ ABSURD: dict[type, list[Any]] = {
 # A call that comes to a result takes seconds there.
 SLOW = (
     "hopper.assessment", "hopper.domain.neutral", "hopper.domain.borders",
-    "hopper.von_mises.neutral",
+    "hopper.domain.coupled", "hopper.von_mises.neutral",
 )  # fmt: skip
 
 

@@ -184,6 +184,15 @@ def _located(
 
 
 def _root(at: Callable[[float], Growth], bracket: tuple[float, float]) -> float:
+    """Return the root in a bracket of another mesh; next to it where this one has none there."""
+    if at(bracket[0]).abscissa * at(bracket[1]).abscissa > 0:
+        near = _around(at, sum(bracket) / 2)
+        if near is None:
+            raise ConvergenceError(
+                f"neutral point not resolved near delta = {np.degrees(bracket[0]):.6g} deg: two "
+                "meshes differ on the modes there; change the wall friction"
+            )
+        bracket = near
     return float(brentq(lambda delta: at(delta).abscissa, *bracket, xtol=_ROOT_TOLERANCE))
 
 
