@@ -59,7 +59,7 @@ def _decay(
 ) -> dict[str, np.ndarray]:
     kept = np.linspace(0, deltas.size - 1, rows).astype(int)[:-1]
     kept = kept[np.isfinite(sonic[kept])]
-    phi = sonic[kept, None] * ranges.closing_in(1.0, frictions)
+    phi = sonic[kept, None] * ranges.closing_in(_UP_TO, frictions)
     rates = [
         decay_rates(Hopper("cone", float(delta), half_angle, VON_MISES), row)
         for delta, row in zip(deltas[kept], phi, strict=True)
@@ -68,6 +68,8 @@ def _decay(
     return {"delta": deltas[kept], "phi": phi, "down": down, "up": up}
 
 
+# Part of the border up to which the law of high frequency is resolved.
+_UP_TO = 0.998
 _GRID = "decay_row friction"
 TABLE = (
     *within("borders", COUPLED_BORDERS),

@@ -8,7 +8,7 @@ import xarray as xr
 
 from hopper_workflow import artifacts, jobs
 from hopper.errors import ConvergenceError
-from hopper.problem import Hopper
+from hopper.problem import Geometry, Hopper
 from hopper.radial.solution import RadialSolution, solve_radial
 from hopper.von_mises.characteristics import EquationType, equation_type
 from hopper.von_mises.high_frequency import high_frequency
@@ -21,10 +21,10 @@ from hopper_data.tables import complex_number, number, within
 
 
 def compute_von_mises_spectrum(
-    *, delta_deg: float, half_angle_deg: float, mu: float, half_nodes: int
+    *, geometry: Geometry, delta_deg: float, half_angle_deg: float, mu: float, half_nodes: int
 ) -> xr.Dataset:
     """Compare a mesh with the one before, and resolved modes with the law of high frequency."""
-    hopper = Hopper("cone", radians(delta_deg), radians(half_angle_deg), VON_MISES)
+    hopper = Hopper(geometry, radians(delta_deg), radians(half_angle_deg), VON_MISES)
     solution = solve_radial(hopper, atan(mu))
     kind, modes = equation_type(solution), modes_on(solution, half_nodes)
     if not modes.eigenvalues.size:

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from hopper_workflow import artifacts, jobs, plotting
 
-_LEVELS = (0.5, 1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9, 10)
+_LEVELS = (0.5, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10)
 
 
 def draw(domains: Sequence[str], *, half_angles_deg: Sequence[float]) -> Figure:
@@ -25,6 +25,7 @@ def draw(domains: Sequence[str], *, half_angles_deg: Sequence[float]) -> Figure:
     for axis in axes[-1]:
         axis.set_xlabel(r"internal friction $\delta$ (degrees)")
     plotting.letter(axes.flat)
+    figure.suptitle("Contours of the exponent $a$; dashed: end of elliptic flows", fontsize=8)
     return figure
 
 
@@ -39,7 +40,7 @@ def _contours(axis: Axes, data: xr.Dataset, name: str) -> None:
     axis.set_ylim(bottom=0)
 
 
-_ENDS = ("the top's, as $r^a$: a", "the outlet's, as $r^{-a}$: a")
+_ENDS = ("top: decay like $r^a$", "outlet: decay like $r^{-a}$")
 
 if __name__ == "__main__":
     jobs.run(plotting.saving(draw))

@@ -213,7 +213,7 @@ def results():
         *sign_changes(np.cos, [1.0, 2.0], 0.1),
         describe_coupled(elliptic), judged, judged.type, judged.growth, judged.modes,
         judged.growth and judged.growth.strips,
-        coupled_borders(radians(10), [radians(30)]), sweep_coupled(hard, [0.1]),
+        coupled_borders(radians(10), np.array([0.5])), sweep_coupled(hard, np.array([0.1])),
         effects, effects.rays, high_frequency(elliptic),
         *coupled_coefficients(von_mises, [von_mises.member.grid]),
         neutral_point(radians(10), 0.1), coupled_neutral_curve(radians(10), 0.1, 0.05),

@@ -14,6 +14,7 @@ _COLORS = {
     "elliptic": "#4C86A8",
     "unstable": "#D98A1F",
     "stable": "#E3F3FB",
+    "not resolved": "0.15",
 }
 
 
@@ -30,6 +31,7 @@ def shade(axis: Axes, data: xr.Dataset) -> None:
     for name, (x, top) in filled.items():
         axis.fill_between(x, 0, top, color=_COLORS[name], linewidth=0, label=name)
     axis.fill(*_stable(data), color=_COLORS["stable"], linewidth=0, label="stable")
+    axis.fill(*_unresolved(data), color=_COLORS["not resolved"], linewidth=0)
     axis.set_xlim(delta[0], float(data.tension))
 
 
@@ -48,6 +50,18 @@ def _stable(data: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
         np.concatenate([data.neutral_delta, edge_delta, delta[beyond], [float(data.tension)]]),
         np.concatenate([data.neutral_phi, edge_phi, limit[beyond], [0.0]]),
     )
+
+
+def _unresolved(data: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
+    """Return the outline of what lies between the neutral curve's end, the edge and the limit."""
+    known = np.isfinite(data.edge_delta.values)
+    if not known.any():
+        return np.empty(0), np.empty(0)
+    x = np.concatenate([data.neutral_delta[-1:], data.edge_delta[known]])
+    y = np.concatenate([data.neutral_phi[-1:], data.edge_phi[known]])
+    delta, limit = data.delta.values, data.limit_phi.values
+    top = np.linspace(np.interp(y[-1], limit, delta), x[0], 50)
+    return np.concatenate([x, top]), np.concatenate([y, np.interp(top, delta, limit)])
 
 
 def draw_borders(axis: Axes, data: xr.Dataset) -> None:

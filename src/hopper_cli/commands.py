@@ -29,6 +29,9 @@ from hopper_data.assessments import Part
 from hopper_data.inputs import Case, Wall
 from hopper_data.tables import Row
 
+_NO_TRANSIENT = (
+    "no transient growth: the collocation matrix grows in ways that the equations do not"
+)
 _Pairs = tuple[Complex, Array]  # eigenvalues and their errors
 
 
@@ -133,7 +136,7 @@ def _coupled(options: Namespace, case: Case) -> str:
         if modes[0].size < options.modes:
             notes = [f"only {modes[0].size} low modes are resolved"]
     if options.json:
-        return _coupled_json(case, found, modes, [*options.doubts, *notes])
+        return _coupled_json(case, found, modes, [*options.doubts, *notes, _NO_TRANSIENT])
     cells = [("type of the equations", str(found.type))]
     cells += [
         (f"eigenvalue {number}", text.complex_with_error(value, error))

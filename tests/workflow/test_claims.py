@@ -306,6 +306,7 @@ CHANGES = {
     "mohr_coulomb_is_hyperbolic": {("models", "real_characteristics"): constant(2)},
     "log_r_is_like_time": each(MAPS, "psi_max", constant(1)),
     "von_mises_is_not_always_hyperbolic": {("models", "real_characteristics"): constant(4)},
+    "von_mises_is_more_challenging": each(("cone_10", "cone_30"), "region", constant("stable")),
     "thresholds_carry_over": {("smooth", "neutral_delta"): plus(0.2)},
     "sharp_and_reliable": each(SHAPES, "check_as_worded", plus(100)),
     "principal_stress_ratio": {("models", "ratio_residual"): constant(1e-3)},

@@ -101,6 +101,7 @@ rule compute_von_mises_spectrum:
         "../../envs/hopper.yaml"
     threads: 1
     params:
+        geometry="cone",
         delta_deg=soft_cone("delta_deg"),
         half_angle_deg=soft_cone("half_angle_deg"),
         mu=soft_cone("mu"),

@@ -212,7 +212,13 @@ def solutions_can_be_linearised(models: xr.Dataset) -> Finding:
 
 
 def mohr_coulomb_is_more_conservative(
-    moderate: xr.Dataset, rough: xr.Dataset, models: xr.Dataset
+    moderate: xr.Dataset,
+    rough: xr.Dataset,
+    models: xr.Dataset,
+    coulomb_10: xr.Dataset,
+    coulomb_30: xr.Dataset,
+    soft_10: xr.Dataset,
+    soft_30: xr.Dataset,
 ) -> Finding:
     coulomb, von_mises = (
         np.concatenate([values(data, "u_wall", model=model) for data in (moderate, rough)])
@@ -220,9 +226,30 @@ def mohr_coulomb_is_more_conservative(
     )
     limits = [number(models, "limit_mu", model=model) for model in ("mohr-coulomb", "von-mises")]
     pairs = ", ".join(f"{a:.4g}/{b:.4g}" for a, b in zip(coulomb, von_mises, strict=True))
+    both, soft_only, coulomb_only = (
+        sum(counts)
+        for counts in zip(
+            *map(_verdicts, (coulomb_10, coulomb_30), (soft_10, soft_30)), strict=True
+        )
+    )
     return counted(
         int(np.sum(coulomb < von_mises)),
         coulomb.size,
         f"u at the wall, Mohr-Coulomb/von Mises: {pairs}. Radial flow is possible up to mu = "
-        f"{limits[0]:.3f}/{limits[1]:.3f}.",
+        f"{limits[0]:.3f}/{limits[1]:.3f}. Stability: of {both} cones that both models call stable "
+        f"or unstable, von Mises alone calls {soft_only} unstable, Mohr-Coulomb alone "
+        f"{coulomb_only}.",
+    )
+
+
+def _verdicts(coulomb: xr.Dataset, soft: xr.Dataset) -> tuple[int, int, int]:
+    """Count cones of the coarser map that both call stable or unstable, and where they differ."""
+    region = values(soft, "region")
+    abscissa = coulomb.abscissa.interp(delta=soft.delta, phi=soft.phi).to_numpy()
+    known = np.isin(region, ["stable", "unstable"]) & np.isfinite(abscissa)
+    soft_unstable, unstable = region == "unstable", abscissa > 0
+    return (
+        int(known.sum()),
+        int(np.sum(known & soft_unstable & ~unstable)),
+        int(np.sum(known & ~soft_unstable & unstable)),
     )
