@@ -353,11 +353,11 @@ def test_the_sampled_norm_is_the_norm(wedge_bases, norm):
     edges = np.arange(0.25 * period, 0.6, period / 2)
     assert edges.size > 5
     for low, high in pairwise(edges):
-        window = [
-            curve[(low <= t) & (t <= high)] for t, curve in ((times, relative), (dense, exact))
-        ]
-        assert window[0].max() == pytest.approx(window[1].max(), rel=0.01)
-        assert window[0].min() == pytest.approx(window[1].min(), rel=0.01)
+        found = relative[(low <= times) & (times <= high)]
+        expected = exact[(low <= dense) & (dense <= high)]
+        # Samples are values of the curve: they can miss an extremum, not exceed it.
+        assert found.max() > 0.99 * expected.max()
+        assert found.min() < 1.01 * expected.min()
 
 
 def test_half_the_step_changes_no_extremum(wedge_bases):
