@@ -38,8 +38,8 @@ CASES = list(product(GEOMETRIES, NORMS, (1.0, 2.0)))
 TIMES = np.array([0.0, 1e-3, 0.02, 0.3, 1.0, 5.0])
 
 
-def all_kept(geometry, mode, n):
-    return np.concatenate(list(kept_eigenvalues(geometry, mode, n).values()))
+def all_kept(geometry, formulation, n):
+    return np.concatenate(list(kept_eigenvalues(geometry, formulation, n).values()))
 
 
 def rounding(kappa, size, times):
@@ -89,14 +89,14 @@ def test_norm_on_the_mesh_of_the_paper(geometry):
     assert np.all(error <= rounding(kappa, matrix_norm(geometry, 400), times))
 
 
-@pytest.mark.parametrize("mode", ["paper", "physical"])
+@pytest.mark.parametrize("formulation", ["paper", "physical"])
 @pytest.mark.parametrize(("geometry", "norm", "psi_scale"), CASES)
-def test_bounds_of_the_norm(geometry, mode, norm, psi_scale):
-    bases = kept_bases(geometry, mode, 200, norm, psi_scale)
+def test_bounds_of_the_norm(geometry, formulation, norm, psi_scale):
+    bases = kept_bases(geometry, formulation, 200, norm, psi_scale)
     times = np.linspace(0, 5, 101)
     found = propagator_norm(bases, times)
     kappa, alpha = condition_number(bases), abscissa(bases)
-    shift = abs(alpha - all_kept(geometry, mode, 200).real.max())
+    shift = abs(alpha - all_kept(geometry, formulation, 200).real.max())
     assert shift <= EPS * kappa * matrix_norm(geometry, 200)
     lower = np.exp(alpha * times)
     slack = rounding(kappa, 1, times)
