@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
-from matplotlib.colors import LinearSegmentedColormap, SymLogNorm
+from matplotlib.colors import LinearSegmentedColormap, ListedColormap, SymLogNorm
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
@@ -73,20 +73,19 @@ def _cells(axis: Axes, data: xr.Dataset, values: ArrayLike, **style: Any) -> Qua
 def _mark_undecided(axis: Axes, data: xr.Dataset, known: xr.Dataset) -> None:
     """Grey, by reason, wherever there is no verdict; white where the wall is rougher than delta."""
     delta, limit = known.delta.values, np.nan_to_num(known.limit_phi.values)
-    axis.fill_between(delta, limit, delta, color=_NO_SOLUTION, lw=0, label="no radial solution")
+    axis.fill_between(delta, limit, delta, color="0.80", lw=0, label="no radial solution")
+    negative = (data.region == "non_positive_stress").to_numpy()
+    if negative.any():
+        # Below the least friction with positive stress, midway to the next: no staircase of cells.
+        edge = np.where(negative, data.phi.values, -1.0).max(axis=1)
+        edge += 0.5 * float(np.diff(data.phi.values).max())
+        axis.fill_between(data.delta, 0, edge, color="0.62", lw=0, label="stress not positive")
     axis.fill_between(delta, delta, 90, color="white", lw=0)
-    for name, (color, label) in _GREYS.items():
-        mask = (data.region == name).to_numpy().T.astype(float)
-        if mask.any():
-            axis.contourf(data.delta, data.phi, mask, levels=[0.5, 1.5], colors=[color])
-            axis.fill([], [], color=color, label=label)
+    unresolved = np.where(data.region == "not_converged", 1.0, np.nan)
+    if np.isfinite(unresolved).any():
+        _cells(axis, data, unresolved, cmap=ListedColormap(["0.3"]))
+        axis.fill([], [], color="0.3", label="not resolved")
 
-
-_NO_SOLUTION = "0.80"
-_GREYS = {
-    "non_positive_stress": ("0.62", "stress not positive"),
-    "not_converged": ("0.3", "not resolved"),
-}
 
 if __name__ == "__main__":
     jobs.run(plotting.saving(draw))

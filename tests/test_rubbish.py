@@ -29,7 +29,8 @@ from hopper.values import complex_array, number_array
 
 # Modules of tools for writing functions, not for users.
 TOOLS = {
-    "hopper.arguments", "hopper.brief", "hopper.errors", "hopper.radial.steps", "hopper.values"
+    "hopper.arguments", "hopper.brief", "hopper.errors", "hopper.radial.steps", "hopper.values",
+    "hopper.spectral.sampling",
 }  # fmt: skip
 
 

@@ -361,4 +361,4 @@ def test_a_host_workflow_of_0_1_0_finds_its_jobs(fresh, tmp_path):
     (host.path / "silos.yaml").write_text(yaml.safe_dump({"hopper": old}))
     (host.path / "Snakefile").write_text(HOST_OF_0_1_0.format(clone=str(fresh.path)))
     jobs = host.reruns("hopper_all")
-    assert {"hopper_judge_claims", "hopper_plot_fig_4_4/fig_4_4", "hopper_plot_fig_4_5"} <= jobs
+    assert {"judge_claims", "plot_fig_4_4/fig_4_4", "plot_fig_4_5"} <= jobs

@@ -3,12 +3,12 @@
 import base64
 import io
 import json
-import re
 from html import escape
 from pathlib import Path
 
 from PIL import Image
 
+from hopper_workflow import entries
 from hopper_workflow.artifacts import replacing
 from hopper_workflow.publish import run
 
@@ -48,8 +48,7 @@ def _picture(file: Path) -> str:
     content = io.BytesIO()
     small.quantize(64).save(content, "PNG", optimize=True)
     source = base64.b64encode(content.getvalue()).decode()
-    name = re.sub(r"^(\d) (\d)", r"\1.\2", file.stem.removeprefix("fig_").replace("_", " "))
-    name = escape(name)
+    name = escape(entries.number_of(file.stem))
     return (
         f'<figure class="small"><img alt="{name}" src="data:image/png;base64,{source}">'
         f"<figcaption>{name}</figcaption></figure>"
