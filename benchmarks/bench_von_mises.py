@@ -11,7 +11,7 @@ from statistics import median
 from time import process_time
 
 import numpy as np
-from scipy.linalg import eigvals
+from scipy.linalg import eig, eigvals
 
 from hopper.arrays import Array, Complex
 from hopper.errors import HopperError
@@ -31,8 +31,11 @@ LEAST, LARGEST_PSI, CONES = 60, 40, 100
 SHARE = 0.95
 
 
-def quadratic_eigenvalues(solution: RadialSolution, n: int) -> Complex:
-    """Return the finite eigenvalues with Im >= 0 in S, U and W on n half nodes, by modulus."""
+def quadratic_eigenvalues(solution: RadialSolution, n: int, vectors: bool = False) -> Complex:
+    """Return the finite eigenvalues with Im >= 0 in S, U and W on n half nodes, by modulus.
+
+    With ``vectors`` those are computed as well, as scipy.linalg.eig does by default.
+    """
     grid = half_grid(n, solution.hopper.half_angle)
     at = coefficients(solution, [grid])[0]
     s, m, c, q, cot = at.s, at.m, at.c, at.q, at.cot
@@ -68,15 +71,17 @@ def quadratic_eigenvalues(solution: RadialSolution, n: int) -> Complex:
             by_order[1] = by_order[1] - Q[order - 1]
         # W = 0 at the wall and the wall's law take the angular equation's place there.
         powers.append(np.delete(np.concatenate(by_order), 2 * n - 1, axis=0)[:, :-1])
-    return _of_companion(*powers)
+    return _of_companion(powers, vectors)
 
 
-def _of_companion(k0: Array, k1: Array, k2: Array) -> Complex:
+def _of_companion(powers: list[Array], vectors: bool) -> Complex:
+    k0, k1, k2 = powers
     size = len(k0)
     unit, zero = np.eye(size), np.zeros((size, size))
     left = np.block([[zero, unit], [-k0, -k1]])
     right = np.block([[unit, zero], [zero, k2]])
-    values = np.asarray(eigvals(left, right), dtype=complex)
+    found = eig(left, right)[0] if vectors else eigvals(left, right)
+    values = np.asarray(found, dtype=complex)
     values = values[np.isfinite(values)]
     values = values[(values.imag >= 0) & (np.abs(values) > 1e-3)]
     return values[np.argsort(np.abs(values))]
@@ -104,9 +109,11 @@ def compare(delta: float, half_angle: float, phi: float) -> None:
     for at in radians(phi) + 1e-3 * np.arange(1, REPEATS + 1):
         times.append(seconds(partial(judge, hopper, float(at), start, resolve=False)))
     point = median(times)
-    by_qz = median(seconds(lambda: quadratic_eigenvalues(start, NODES)) for _ in range(3))
     row(f"{name}: ms a point", 1e3 * point)
-    row(f"{name}: quadratic eigenproblem / a point", by_qz / point, f">= {LEAST}")
+    for vectors, what in ((True, "with vectors"), (False, "eigenvalues only")):
+        qz = partial(quadratic_eigenvalues, start, NODES, vectors)
+        ratio = median(seconds(qz) for _ in range(3)) / point
+        row(f"{name}: quadratic, {what} / a point", ratio, f">= {LEAST}")
 
 
 def resolved(half_angle: float) -> tuple[float, float]:
