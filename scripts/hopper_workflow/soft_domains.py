@@ -6,12 +6,12 @@ from matplotlib.axes import Axes
 
 from hopper_workflow import plotting
 
-# Lightness tells them apart in grey: no flow 0.80, unstable 0.62, stable 0.95, elliptic 0.50,
+# Lightness tells them apart in grey: no flow 0.80, unstable 0.58, stable 0.95, elliptic 0.43,
 # mixed 0.30.
 _COLORS = {
     "no radial flow": "0.80",
     "mixed type": "#5B4A78",
-    "elliptic": "#4C86A8",
+    "elliptic": "#41779A",
     "unstable": "#D98A1F",
     "stable": "#E3F3FB",
     "not resolved": "0.15",
@@ -84,7 +84,7 @@ def mark_unresolved(axis: Axes, cells: xr.Dataset) -> None:
     """Mark the points of a map that have no verdict because their modes are not resolved."""
     rows, columns = np.nonzero((cells.region == "not_converged").to_numpy())
     axis.plot(cells.delta.values[rows], cells.phi.values[columns], "x", color="black",
-              markersize=3, mew=0.7, label="not resolved")  # fmt: skip
+              markersize=3, mew=0.7, label="no verdict: not resolved")  # fmt: skip
 
 
 def name_regions(axis: Axes, data: xr.Dataset) -> None:

@@ -238,7 +238,8 @@ def mohr_coulomb_is_more_conservative(
         f"u at the wall, Mohr-Coulomb/von Mises: {pairs}. Radial flow is possible up to mu = "
         f"{limits[0]:.3f}/{limits[1]:.3f}. Stability: of {both} cones that both models call stable "
         f"or unstable, von Mises alone calls {soft_only} unstable, Mohr-Coulomb alone "
-        f"{coulomb_only}.",
+        f"{coulomb_only}: there the {'former' if soft_only > coulomb_only else 'latter'} is the more "
+        "conservative one.",
     )
 
 
