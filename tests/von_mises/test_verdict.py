@@ -9,6 +9,8 @@ import pytest
 from hopper.errors import HopperError, InvalidParameterError, SingularVelocityError
 from hopper.problem import Hopper
 from hopper.radial.solution import solve_radial
+from hopper.stability.modes import linear_stability
+from hopper.stability.transient import modal_basis, tilted_basis
 from hopper.von_mises import growth as growth_module
 from hopper.von_mises.growth import growth, resolved_growth
 from hopper.von_mises.modes import modes_on
@@ -289,6 +291,18 @@ def test_bad_material():
             call()
     with pytest.raises(InvalidParameterError, match="is not a number"):
         judge(cone(40, 10), "rough")  # type: ignore[arg-type]
+
+
+def test_transients_are_refused_with_the_reason():
+    solution = radial(40, 10, 0.1)
+    kept = np.array([-1.0 + 0j])
+    for call in (
+        lambda: linear_stability(solution),
+        lambda: tilted_basis(solution, 32, "symmetric", kept),
+        lambda: modal_basis(solution, 32, "physical", kept),
+    ):
+        with pytest.raises(InvalidParameterError, match="grows in ways that the equations do not"):
+            call()
 
 
 def test_no_flow_from_a_solution():

@@ -232,14 +232,14 @@ def mohr_coulomb_is_more_conservative(
             *map(_verdicts, (coulomb_10, coulomb_30), (soft_10, soft_30)), strict=True
         )
     )
+    stricter = "von Mises" if soft_only > coulomb_only else "Mohr-Coulomb"
     return counted(
         int(np.sum(coulomb < von_mises)),
         coulomb.size,
         f"u at the wall, Mohr-Coulomb/von Mises: {pairs}. Radial flow is possible up to mu = "
         f"{limits[0]:.3f}/{limits[1]:.3f}. Stability: of {both} cones that both models call stable "
         f"or unstable, von Mises alone calls {soft_only} unstable, Mohr-Coulomb alone "
-        f"{coulomb_only}: there the {'former' if soft_only > coulomb_only else 'latter'} is the more "
-        "conservative one.",
+        f"{coulomb_only}: there {stricter} is the more conservative one.",
     )
 
 
