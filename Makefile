@@ -5,6 +5,7 @@
 # make bench    measure the speed figures   make lock   resolve the dependencies anew (needs uv)
 # make figures/fig_3_1.png                  build one figure
 # make cluster  the environment with Snakemake's SLURM executor; docs/cluster.md tells more
+# make slurm    build every figure with it
 # make check    compare artifacts and figures with what is stored in tests/figures
 # make references                           store them anew, after a deliberate change
 # make CONFIG=my.yaml, make report CONFIG=my.yaml: with the numbers of another file
@@ -19,6 +20,7 @@ override CONFIG :=
 endif
 OTHER := $(if $(CONFIG),"$(CONFIG)")
 SNAKEMAKE := $(BIN)/python -m snakemake $(if $(CONFIG),--configfile $(OTHER))
+AGAIN := $(if $(CONFIG),,$(addprefix --configfile ,$(wildcard $(RECORD))))
 WORKFLOW := PYTHONPATH=scripts $(BIN)/python -m hopper_workflow
 
 # What a user's shell has set for other projects: scripts/hopper_workflow/surroundings.py keeps the same from jobs.
@@ -44,7 +46,7 @@ figures: .venv/run.stamp
 # Snakemake locks a directory while it works; a run that was killed leaves the lock behind.
 resume: .venv/run.stamp
 	@$(WORKFLOW).live
-	@$(SNAKEMAKE) $(if $(CONFIG),,$(addprefix --configfile ,$(wildcard $(RECORD))))
+	@$(SNAKEMAKE) $(AGAIN)
 
 figures/%: .venv/run.stamp FORCE
 	@$(SNAKEMAKE) $@
@@ -54,7 +56,8 @@ test: lint
 
 # The HTML report opens offline as fig_comparison_basic.html.
 CHECKS := results/figure_checks
-check: figures .venv/test.stamp
+check: .venv/test.stamp
+	@$(SNAKEMAKE) $(AGAIN)
 	@$(BIN)/python -m pytest tests/figures -n 2 --mpl --mpl-results-path=$(CHECKS) --mpl-generate-summary=html,basic-html
 
 references: figures .venv/test.stamp
@@ -73,7 +76,7 @@ lint: .venv/test.stamp
 
 # Are all results and logs, byte for byte, what the jobs wrote? What is not is named.
 verify: .venv/run.stamp
-	@$(WORKFLOW).publish.verify
+	@$(WORKFLOW).publish.verify $(OTHER)
 
 report: .venv/run.stamp
 	@$(WORKFLOW).publish.report $(OTHER)
@@ -105,8 +108,11 @@ reliability: .venv/test.stamp .venv/cluster.stamp
 	@$(BIN)/python -m tests.reliability > docs/reliability.md
 
 # On a SLURM of its own, which it installs and starts: Debian, root, some ten minutes.
-.PHONY: cluster test-slurm requests
+.PHONY: cluster slurm test-slurm requests
 cluster: .venv/cluster.stamp
+
+slurm: .venv/cluster.stamp
+	@$(SNAKEMAKE) --workflow-profile profiles/slurm
 
 test-slurm: .venv/test.stamp .venv/cluster.stamp
 	@$(BIN)/python -m pytest -m slurm tests/slurm

@@ -1,9 +1,11 @@
 """What a process inherits from its user's surroundings, and what of it must not enter a result."""
 
 import locale
+import os
 import re
 import sys
-from collections.abc import Mapping
+import sysconfig
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 # Variables by their beginnings: of Python, Matplotlib, NumPy, SciPy, BLAS and its threads, xarray,
@@ -42,6 +44,13 @@ def set_aside(environment: Mapping[str, str]) -> list[str]:
     """Return the names, sorted, of variables that :func:`settled` leaves out or overrides."""
     ours = settled(environment)
     return sorted(name for name, value in environment.items() if ours.get(name) != value)
+
+
+def own_path(path: Iterable[str], environment: Mapping[str, str]) -> list[str]:
+    """Return a search path of modules, which jobs get too, without what PYTHONPATH put there."""
+    added = environment.get("PYTHONPATH", "") if "PYTHONPATH" in set_aside(environment) else ""
+    foreign = {os.path.abspath(folder) for folder in added.split(os.pathsep) if folder}
+    return [folder for folder in path if folder not in foreign - {*sysconfig.get_paths().values()}]
 
 
 def _self_contained() -> bool:

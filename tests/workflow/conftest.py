@@ -209,6 +209,26 @@ def interpreter(folder: Path, code: str) -> Path:
     return folder / "bin/python"
 
 
+def with_make(
+    workflow: Workflow, *goals: str, variables: dict[str, str] | None = None, umask: int = 0o022
+) -> subprocess.CompletedProcess[str]:
+    """Run make in a copy of the workflow, with an environment that need not be installed."""
+    folder = workflow.path / ".venv"
+    if not folder.exists():
+        interpreter(folder, "")
+        (folder / "place").write_text(f"{workflow.path.resolve()}\n")
+        (folder / "run.stamp").touch()
+    return subprocess.run(
+        ["make", "-s", *goals],
+        cwd=workflow.path,
+        env={**os.environ, **(variables or {})},
+        umask=umask,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
 @pytest.fixture(scope="session")
 def loaded(built: Workflow) -> dict[str, set[str]]:
     """The project's modules, as paths, that jobs of each rule really loaded."""

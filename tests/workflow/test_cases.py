@@ -59,7 +59,7 @@ def test_cases_without_an_answer_hold_what_there_is_and_say_why(fresh):
         "tangent": {"mu": 0.35, "description": "a characteristic is tangent to an arc"},
         "beyond": {"mu": 0.48},
         "wide": {"half_angle_deg": 60, "mu": 0.2},
-        "singular": {"delta_deg": 25, "half_angle_deg": 30, "mu": 0.4},
+        "singular": {"delta_deg": 25, "half_angle_deg": 30, "mu": 0.4, "description": "料斗"},
         "mises": {"model": "von-mises"},
     }
     fresh.set("cases", [{**STEEL, **change, "name": name} for name, change in cases.items()])
@@ -90,6 +90,8 @@ def test_cases_without_an_answer_hold_what_there_is_and_say_why(fresh):
     assert "velocity is singular" in found["singular"].comment
     assert "u" not in found["singular"]
     assert "sigma" in found["singular"]
+    log = (fresh.path / "logs/plot_case/singular.log").read_text(encoding="utf-8")
+    assert "Glyph" in log, "the font of the figures has none of the description"
     checker = [sys.executable.replace("python", "compliance-checker"), "--test=cf:1.11"]
     for name in ("singular", "beyond"):
         path = fresh.path / f"results/cases/{name}.nc"

@@ -112,8 +112,10 @@ def test_a_plot_loads_no_numerics(loaded, plot):
 CASE_NEEDS = {"plot_case": {"src/hopper/brief.py", "src/hopper/quantity.py"}}
 
 
-def test_touching_a_module_reruns_nothing(rebuilt):
-    for path in (rebuilt.path / "src/hopper").rglob("*.py"):
+def test_touching_files_reruns_nothing(rebuilt):
+    """Modules, the rules' own scripts, the rules, the configuration."""
+    touched = ("src/**/*.py", "scripts/**/*", "workflow/**/*.smk", "Snakefile", "config.yaml")
+    for path in (path for pattern in touched for path in rebuilt.path.glob(pattern)):
         os.utime(path, (time.time() + 60, time.time() + 60))
     assert rebuilt.reruns() == set()
 

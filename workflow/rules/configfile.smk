@@ -10,8 +10,8 @@ import sys
 from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 
-# The host of a module keeps its sys.path.
-sys.path.append(str(ROOT / "scripts"))
+# Ours before others of their names; the host of a module keeps its sys.path.
+sys.path[:] = [str(ROOT / "scripts"), *sys.path]
 from hopper_workflow import (
     cases,
     code_graph,
@@ -39,6 +39,7 @@ if not workflow.modifier.skip_configfile:
     console.be_brief(logger)
     if foreign := surroundings.set_aside(os.environ):
         logger.info(f"Set aside from the environment: {' '.join(foreign)}")
+    sys.path[:] = surroundings.own_path(sys.path, os.environ)
     settled = surroundings.settled(os.environ)
     os.environ.clear()
     os.environ.update(settled)

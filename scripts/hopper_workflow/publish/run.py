@@ -113,14 +113,15 @@ def snakemake(configuration: Path | None, *arguments: str) -> str:
     return done.stdout
 
 
-def publish(write: Callable[[Path, Path | None], None], path: str) -> None:
-    """Write something about the run to ``path``; end in one line and exit code 1 if it can't be.
+def configuration() -> Path | None:
+    """Return the file the command's argument names, or else that of the last run."""
+    return Path(sys.argv[1]) if len(sys.argv) > 1 else effective.of_last_run()
 
-    The command's argument, if there is one, is a configuration file in place of the run's own.
-    """
-    configuration = Path(sys.argv[1]) if len(sys.argv) > 1 else effective.of_last_run()
+
+def publish(write: Callable[[Path, Path | None], None], path: str) -> None:
+    """Write something about the run to ``path``; end in one line and exit code 1 if it can't be."""
     try:
-        write(Path(path), configuration)
+        write(Path(path), configuration())
     except (RunError, OSError) as error:
         sys.exit(f"{path} not written: {error}")
     print(path)

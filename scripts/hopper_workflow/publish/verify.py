@@ -21,7 +21,7 @@ def verify() -> None:
     for path, fault in damaged.items():
         print(f"{path} is {fault}")
     if damaged:
-        command = ["snakemake", "--force", *damaged, *effective.option(effective.of_last_run())]
+        command = ["snakemake", "--force", *damaged, *effective.option(run.configuration())]
         print(f"\nRebuild what is damaged with:\n{shlex.join(command)}")
         sys.exit(1)
     written = {path for job in jobs for path in job.written}
