@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from matplotlib.figure import Figure
 
-from hopper_workflow import artifacts, jobs, plotting, soft_domains
+from hopper_workflow import artifacts, jobs, plotting, von_mises_domains
 from hopper_workflow import domains as mohr_coulomb
 
 
@@ -27,10 +27,10 @@ def draw(
         mohr_coulomb.shade(row[0], known)
         mohr_coulomb.draw_borders(row[0], known)
         mohr_coulomb.name_regions(row[0], known)
-        soft_domains.shade(row[1], data)
-        soft_domains.draw_borders(row[1], data)
-        soft_domains.mark_unresolved(row[1], verdicts)
-        soft_domains.name_regions(row[1], data)
+        von_mises_domains.shade(row[1], data)
+        von_mises_domains.draw_borders(row[1], data)
+        von_mises_domains.mark_unresolved(row[1], verdicts)
+        von_mises_domains.name_regions(row[1], data)
         for axis, model in zip(row, ("Mohr-Coulomb", "von Mises"), strict=True):
             axis.set_title(rf"{model}, cone, $\vartheta_w$ = {angle:g}°")
             axis.set_xlim(float(verdicts.delta.min()), float(data.tension))

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from matplotlib.figure import Figure
 
-from hopper_workflow import artifacts, jobs, plotting, soft_domains
+from hopper_workflow import artifacts, jobs, plotting, von_mises_domains
 
 
 def draw(
@@ -14,10 +14,10 @@ def draw(
     figure, axes = plotting.grid(len(maps), 2, height=2.9, sharex=True, sharey=True)
     for axis, path, domain, angle in zip(axes, maps, domains, half_angles_deg, strict=True):
         cells, data = artifacts.read(path), artifacts.read(domain)
-        soft_domains.shade(axis, data)
-        soft_domains.draw_borders(axis, data)
-        soft_domains.mark_unresolved(axis, cells)
-        soft_domains.name_regions(axis, data)
+        von_mises_domains.shade(axis, data)
+        von_mises_domains.draw_borders(axis, data)
+        von_mises_domains.mark_unresolved(axis, cells)
+        von_mises_domains.name_regions(axis, data)
         axis.set_title(rf"von Mises cone, $\vartheta_w$ = {angle:g}°")
         axis.set_xlabel(r"internal friction $\delta$ (degrees)")
         axis.set_ylabel(r"wall friction $\phi$ (degrees)")

@@ -99,7 +99,7 @@ def mesh_of(spectrum):
     return {name: case[name] for name in ["nodes", "coarse_nodes", "tolerance"]}
 
 
-def soft_cone(key):
+def von_mises_cone(key):
     """A parameter of a cone of `fig_vm_spectra`."""
     return lambda wildcards: config["fig_vm_spectra"]["hoppers"][wildcards.cone][key]
 

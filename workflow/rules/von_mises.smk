@@ -15,19 +15,19 @@ rule compute_von_mises_chunk:
     benchmark:
         "logs/compute_von_mises_chunk/cone_{angle}_{chunk}.benchmark.tsv"
     wildcard_constraints:
-        chunk=targets.words(range(SOFT["map"]["chunks"])),
+        chunk=targets.words(range(VON_MISES["map"]["chunks"])),
     conda:
         "../../envs/hopper.yaml"
     threads: 1
     resources:
-        **asks("compute_von_mises_chunk", map_points(SOFT["map"], SOFT["map"]["chunks"])),
+        **asks("compute_von_mises_chunk", map_points(VON_MISES["map"], VON_MISES["map"]["chunks"])),
     params:
         geometry="cone",
         half_angle_deg=lambda wildcards: float(wildcards.angle),
-        delta_deg=SOFT["map"]["delta_deg"],
-        phi_deg=SOFT["map"]["phi_deg"],
+        delta_deg=VON_MISES["map"]["delta_deg"],
+        phi_deg=VON_MISES["map"]["phi_deg"],
         chunk=lambda wildcards: int(wildcards.chunk),
-        chunks=SOFT["map"]["chunks"],
+        chunks=VON_MISES["map"]["chunks"],
     message:
         "compute_von_mises_chunk/{wildcards.angle}/{wildcards.chunk}: Von Mises cones: some rows of a map of verdicts"
     script:
@@ -38,7 +38,7 @@ rule merge_von_mises_map:
     """Von Mises cones: a map of verdicts of its parts."""
     input:
         chunks=expand(
-            "results/von_mises/map/cone_{{angle}}/{chunk}.nc", chunk=range(SOFT["map"]["chunks"])
+            "results/von_mises/map/cone_{{angle}}/{chunk}.nc", chunk=range(VON_MISES["map"]["chunks"])
         ),
         code=code_of("merge_von_mises_map"),
     output:
@@ -54,8 +54,8 @@ rule merge_von_mises_map:
     params:
         geometry="cone",
         half_angle_deg=lambda wildcards: float(wildcards.angle),
-        delta_deg=SOFT["map"]["delta_deg"],
-        phi_deg=SOFT["map"]["phi_deg"],
+        delta_deg=VON_MISES["map"]["delta_deg"],
+        phi_deg=VON_MISES["map"]["phi_deg"],
     message:
         "merge_von_mises_map/{wildcards.angle}: Von Mises cones: a map of verdicts of its parts"
     script:
@@ -77,9 +77,9 @@ rule compute_von_mises_domain:
         "../../envs/hopper.yaml"
     threads: 1
     params:
-        **SOFT["domain"],
+        **VON_MISES["domain"],
         half_angle_deg=lambda wildcards: float(wildcards.angle),
-        least_delta_deg=SOFT["map"]["delta_deg"]["start"],
+        least_delta_deg=VON_MISES["map"]["delta_deg"]["start"],
     message:
         "compute_von_mises_domain/{wildcards.angle}: Von Mises cones: types, neutral curve and decay rates"
     script:
@@ -102,9 +102,9 @@ rule compute_von_mises_spectrum:
     threads: 1
     params:
         geometry="cone",
-        delta_deg=soft_cone("delta_deg"),
-        half_angle_deg=soft_cone("half_angle_deg"),
-        mu=soft_cone("mu"),
+        delta_deg=von_mises_cone("delta_deg"),
+        half_angle_deg=von_mises_cone("half_angle_deg"),
+        mu=von_mises_cone("mu"),
         half_nodes=config["fig_vm_spectra"]["half_nodes"],
     message:
         "compute_von_mises_spectrum/{wildcards.cone}: Von Mises cones: resolved modes and the law of high frequency"
@@ -115,8 +115,8 @@ rule compute_von_mises_spectrum:
 rule plot_fig_vm_types:
     """Type and verdict of von Mises cones."""
     input:
-        maps=expand("results/von_mises/map/cone_{angle}.nc", angle=SOFT["half_angles_deg"]),
-        domains=expand("results/von_mises/domain/cone_{angle}.nc", angle=SOFT["half_angles_deg"]),
+        maps=expand("results/von_mises/map/cone_{angle}.nc", angle=VON_MISES["half_angles_deg"]),
+        domains=expand("results/von_mises/domain/cone_{angle}.nc", angle=VON_MISES["half_angles_deg"]),
         code=code_of("plot_fig_vm_types"),
     output:
         png=report(
@@ -134,7 +134,7 @@ rule plot_fig_vm_types:
         "../../envs/hopper.yaml"
     threads: 1
     params:
-        half_angles_deg=SOFT["half_angles_deg"],
+        half_angles_deg=VON_MISES["half_angles_deg"],
     message:
         "plot_fig_vm_types: Type and verdict of von Mises cones"
     script:
@@ -172,7 +172,7 @@ rule plot_fig_vm_spectra:
 rule plot_fig_vm_decay:
     """Decay of end effects in elliptic von Mises cones."""
     input:
-        domains=expand("results/von_mises/domain/cone_{angle}.nc", angle=SOFT["half_angles_deg"]),
+        domains=expand("results/von_mises/domain/cone_{angle}.nc", angle=VON_MISES["half_angles_deg"]),
         code=code_of("plot_fig_vm_decay"),
     output:
         png=report(
@@ -190,7 +190,7 @@ rule plot_fig_vm_decay:
         "../../envs/hopper.yaml"
     threads: 1
     params:
-        half_angles_deg=SOFT["half_angles_deg"],
+        half_angles_deg=VON_MISES["half_angles_deg"],
     message:
         "plot_fig_vm_decay: Decay of end effects in elliptic von Mises cones"
     script:
@@ -200,9 +200,9 @@ rule plot_fig_vm_decay:
 rule plot_fig_models_stability:
     """What both models say of the same cones."""
     input:
-        borders=expand("results/borders/cone_{angle}.nc", angle=SOFT["half_angles_deg"]),
-        domains=expand("results/von_mises/domain/cone_{angle}.nc", angle=SOFT["half_angles_deg"]),
-        maps=expand("results/von_mises/map/cone_{angle}.nc", angle=SOFT["half_angles_deg"]),
+        borders=expand("results/borders/cone_{angle}.nc", angle=VON_MISES["half_angles_deg"]),
+        domains=expand("results/von_mises/domain/cone_{angle}.nc", angle=VON_MISES["half_angles_deg"]),
+        maps=expand("results/von_mises/map/cone_{angle}.nc", angle=VON_MISES["half_angles_deg"]),
         code=code_of("plot_fig_models_stability"),
     output:
         png=report(
@@ -220,7 +220,7 @@ rule plot_fig_models_stability:
         "../../envs/hopper.yaml"
     threads: 1
     params:
-        half_angles_deg=SOFT["half_angles_deg"],
+        half_angles_deg=VON_MISES["half_angles_deg"],
     message:
         "plot_fig_models_stability: What both models say of the same cones"
     script:

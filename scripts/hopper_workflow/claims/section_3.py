@@ -9,6 +9,7 @@ from hopper_workflow.claims.finding import (
     LIMITED,
     Finding,
     Printed,
+    UndecidedError,
     above,
     below,
     counted,
@@ -212,13 +213,7 @@ def solutions_can_be_linearised(models: xr.Dataset) -> Finding:
 
 
 def mohr_coulomb_is_more_conservative(
-    moderate: xr.Dataset,
-    rough: xr.Dataset,
-    models: xr.Dataset,
-    coulomb_10: xr.Dataset,
-    coulomb_30: xr.Dataset,
-    soft_10: xr.Dataset,
-    soft_30: xr.Dataset,
+    moderate: xr.Dataset, rough: xr.Dataset, models: xr.Dataset
 ) -> Finding:
     coulomb, von_mises = (
         np.concatenate([values(data, "u_wall", model=model) for data in (moderate, rough)])
@@ -226,31 +221,44 @@ def mohr_coulomb_is_more_conservative(
     )
     limits = [number(models, "limit_mu", model=model) for model in ("mohr-coulomb", "von-mises")]
     pairs = ", ".join(f"{a:.4g}/{b:.4g}" for a, b in zip(coulomb, von_mises, strict=True))
-    both, soft_only, coulomb_only = (
-        sum(counts)
-        for counts in zip(
-            *map(_verdicts, (coulomb_10, coulomb_30), (soft_10, soft_30)), strict=True
-        )
-    )
-    stricter = "von Mises" if soft_only > coulomb_only else "Mohr-Coulomb"
     return counted(
         int(np.sum(coulomb < von_mises)),
         coulomb.size,
         f"u at the wall, Mohr-Coulomb/von Mises: {pairs}. Radial flow is possible up to mu = "
-        f"{limits[0]:.3f}/{limits[1]:.3f}. Stability: of {both} cones that both models call stable "
-        f"or unstable, von Mises alone calls {soft_only} unstable, Mohr-Coulomb alone "
-        f"{coulomb_only}: there {stricter} is the more conservative one.",
+        f"{limits[0]:.3f}/{limits[1]:.3f}.",
     )
 
 
-def _verdicts(coulomb: xr.Dataset, soft: xr.Dataset) -> tuple[int, int, int]:
+def mohr_coulomb_is_more_conservative_on_stability(
+    coulomb_10: xr.Dataset,
+    coulomb_30: xr.Dataset,
+    von_mises_10: xr.Dataset,
+    von_mises_30: xr.Dataset,
+) -> Finding:
+    maps = zip((coulomb_10, coulomb_30), (von_mises_10, von_mises_30), strict=True)
+    counts = np.array([_verdicts(coulomb, von_mises) for coulomb, von_mises in maps])
+    both, von_mises_only, coulomb_only = counts.sum(axis=0).tolist()
+    if not both:
+        raise UndecidedError("the maps have no cone that both models call stable or unstable")
+    return above(
+        (coulomb_only - von_mises_only) / both,
+        0.0,
+        0.0,
+        f"The paper says so of stagnation. Of {both} cones that both models call stable or "
+        f"unstable, von Mises alone calls {von_mises_only} unstable, Mohr-Coulomb alone "
+        f"{coulomb_only}.",
+    )
+
+
+def _verdicts(coulomb: xr.Dataset, von_mises: xr.Dataset) -> tuple[int, int, int]:
     """Count cones of the coarser map that both call stable or unstable, and where they differ."""
-    region = values(soft, "region")
-    abscissa = coulomb.abscissa.interp(delta=soft.delta, phi=soft.phi).to_numpy()
+    values(coulomb, "abscissa", gaps=True)
+    abscissa = coulomb.abscissa.interp(delta=von_mises.delta, phi=von_mises.phi).to_numpy()
+    region = values(von_mises, "region")
     known = np.isin(region, ["stable", "unstable"]) & np.isfinite(abscissa)
-    soft_unstable, unstable = region == "unstable", abscissa > 0
+    unstable, by_von_mises = abscissa > 0, region == "unstable"
     return (
         int(known.sum()),
-        int(np.sum(known & soft_unstable & ~unstable)),
-        int(np.sum(known & ~soft_unstable & unstable)),
+        int(np.sum(known & by_von_mises & ~unstable)),
+        int(np.sum(known & ~by_von_mises & unstable)),
     )
