@@ -54,13 +54,13 @@ def measured(run: Path) -> dict[str, Cost]:
 def grown(costs: dict[str, Cost], run: Path) -> dict[str, Cost]:
     """Add what a further point costs, from one made-up map; time of a chunk from the run."""
     config = yaml.safe_load((run / "config.yaml").read_text(encoding="utf-8"))
-    sizes, von_mises = config["stability_map"], config["von_mises"]["map"]
+    sizes, grid = config["stability_map"], config["von_mises"]["map"]
     rows, columns = sizes["delta_deg"]["points"], sizes["phi_deg"]["points"]
     points = dict.fromkeys(OF_MAPS, rows * columns)
     points["compute_map_chunk"] = ceil(rows / sizes["chunks"]) * columns
     result = dict(costs)
     if chunk := costs.get("compute_von_mises_chunk"):
-        size = ceil(von_mises["delta_deg"]["points"] / von_mises["chunks"]) * von_mises["phi_deg"]["points"]
+        size = ceil(grid["delta_deg"]["points"] / grid["chunks"]) * grid["phi_deg"]["points"]
         microseconds = 1e6 * chunk.seconds / size
         result[chunk.rule] = chunk._replace(points=size, microseconds=microseconds)
     with tempfile.TemporaryDirectory() as folder:
