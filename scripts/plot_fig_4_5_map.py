@@ -74,12 +74,10 @@ def _mark_undecided(axis: Axes, data: xr.Dataset, known: xr.Dataset) -> None:
     """Grey, by reason, wherever there is no verdict; white where the wall is rougher than delta."""
     delta, limit = known.delta.values, np.nan_to_num(known.limit_phi.values)
     axis.fill_between(delta, limit, delta, color="0.80", lw=0, label="no radial solution")
-    negative = (data.region == "non_positive_stress").to_numpy()
-    if negative.any():
-        # Below the least friction with positive stress, midway to the next: no staircase of cells.
-        edge = np.where(negative, data.phi.values, -1.0).max(axis=1)
-        edge += 0.5 * float(np.diff(data.phi.values).max())
-        axis.fill_between(data.delta, 0, edge, color="0.62", lw=0, label="stress not positive")
+    least = known.positive_stress_phi.to_numpy()
+    least = np.where(np.isnan(least), limit, least)
+    if least.any():
+        axis.fill_between(delta, 0, least, color="0.62", lw=0, label="stress not positive")
     axis.fill_between(delta, delta, 90, color="white", lw=0)
     unresolved = np.where(data.region == "not_converged", 1.0, np.nan)
     if np.isfinite(unresolved).any():

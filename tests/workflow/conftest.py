@@ -66,6 +66,17 @@ COARSE: dict[str, Any] = {
     "claims.linear.folds.deltas_deg.step": 10,
     "claims.linear.windows.points": 11,
 }
+# A Snakefile that takes the workflow of a clone as a module.
+HOST = """
+configfile: "silos.yaml"
+
+module hopper:
+    snakefile: {clone!r} + "/Snakefile"
+    config: config["hopper"]
+    prefix: "silo"
+
+use rule * from hopper as hopper_*
+"""
 
 
 class Workflow:

@@ -8,24 +8,18 @@ import netCDF4
 import pytest
 import yaml
 
-from tests.workflow.conftest import Workflow, copy
+from tests.workflow.conftest import HOST, Workflow, copy
 
 pytestmark = pytest.mark.workflow
 
-FROM_CLONE = """
-configfile: "silos.yaml"
-
-module hopper:
-    snakefile: {clone!r} + "/Snakefile"
-    config: config["hopper"]
-    prefix: "silo"
-
-use rule * from hopper as hopper_*
-
+FROM_CLONE = (
+    HOST
+    + """
 rule mine:
     default_target: True
     input: "silo/figures/fig_3_1.png"
 """
+)
 # A host with packages of the names that ours once had, and a job of its own.
 WITH_ITS_OWN_PACKAGES = """
 import os

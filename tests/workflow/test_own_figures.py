@@ -62,6 +62,7 @@ def test_entries_give_their_figures_without_a_rule_edited(rebuilt):
     assert done.returncode == 0, done.stderr
     for name in wanted:
         assert (rebuilt.path / name).stat().st_size > 10_000
+        (rebuilt.path / name).unlink()
     asked = rebuilt.snakemake("-n", "--configfile", path.name).stdout
     assert "rule all" in asked
     for name in FIGURES:

@@ -21,8 +21,9 @@ from hopper.domain.neutral_curve import NeutralCurve
 from hopper.errors import NoRadialSolutionError
 from hopper.problem import Geometry, Hopper
 from hopper.radial.collocation import Closure, Member
-from hopper.radial.family import family, neighbour
+from hopper.radial.family import family, neighbour, smooth_wall_member
 from hopper.radial.friction_limit import friction_limit
+from hopper.radial.members import member_with_tau
 from hopper.radial.solution import solution_of
 from hopper.stability.tilted import require_mohr_coulomb, tangency_angle
 
@@ -102,6 +103,28 @@ def singular_velocity_friction(hopper: Hopper) -> float | None:
     return friction_reaching(hopper, pi / 4)
 
 
+@checked
+def positive_stress_friction(hopper: Hopper) -> float | None:
+    """Return the least wall friction angle (radians) with positive stress, None if there is none.
+
+    It is 0 where a smooth wall has positive stress.
+
+    Raises
+    ------
+    NoRadialSolutionError
+        If not even a smooth wall has a radial solution.
+    ConvergenceError
+        If the radial solution of infinite stress on the axis is not resolved.
+    """
+    if smooth_wall_member(hopper).tau > 0:
+        return 0.0
+    try:
+        member = member_with_tau(hopper, 0.0)
+    except NoRadialSolutionError:
+        return None
+    return hopper.material.friction_angle(hopper.delta, member.psi_wall) if member.rising else None
+
+
 @dataclass(frozen=True)
 class Borders:
     """Wall friction angles (radians) at which something ends, over delta; NaN where it does not.
@@ -120,6 +143,8 @@ class Borders:
         psi reaches pi/4 - delta/2.
     singular_velocity : array
         psi reaches pi/4.
+    positive_stress : array
+        The stress is positive above; 0 where it is for a smooth wall.
     """
 
     delta: Array
@@ -128,6 +153,7 @@ class Borders:
     end: tuple[str, ...]
     tangency: Array
     singular_velocity: Array
+    positive_stress: Array
 
     __repr__ = brief("delta deg", "limit deg", "tangency deg")
 
@@ -147,7 +173,7 @@ def borders(geometry: Geometry, half_angle: Radians, deltas: RealRow) -> Borders
         If a radial solution on a border is not resolved.
     """
     delta = np.asarray(deltas)
-    table = np.full((4, delta.size), np.nan)
+    table = np.full((5, delta.size), np.nan)
     ends = []
     for i, value in enumerate(delta):
         hopper = Hopper(geometry, float(value), half_angle)
@@ -157,13 +183,17 @@ def borders(geometry: Geometry, half_angle: Radians, deltas: RealRow) -> Borders
             ends.append("none")
             continue
         ends.append(limit.end)
-        levels = tangency_friction(hopper), singular_velocity_friction(hopper)
+        levels = (
+            tangency_friction(hopper),
+            singular_velocity_friction(hopper),
+            positive_stress_friction(hopper),
+        )
         table[:, i] = (
             limit.friction_angle,
             limit.error_estimate,
             *(np.nan if phi is None else phi for phi in levels),
         )
-    return Borders(delta, table[0], table[1], tuple(ends), table[2], table[3])
+    return Borders(delta, table[0], table[1], tuple(ends), *table[2:])
 
 
 @checked
@@ -190,27 +220,18 @@ def traced_borders(geometry: Geometry, half_angle: Radians, deltas: RealRow) -> 
 
 def _merged(one: Borders, other: Borders) -> Borders:
     """Return two results as one, over increasing delta."""
-    order = np.argsort(np.concatenate([one.delta, other.delta]))
-
-    def both(name: str) -> Array:
-        return np.concatenate([getattr(one, name), getattr(other, name)])[order]
-
-    ends = (*one.end, *other.end)
-    return Borders(
-        both("delta"),
-        both("limit"),
-        both("limit_error"),
-        tuple(ends[index] for index in order),
-        both("tangency"),
-        both("singular_velocity"),
-    )
+    both = {name: (*vars(one)[name], *vars(other)[name]) for name in vars(one)}
+    order = np.argsort(both["delta"])
+    ends = both.pop("end")
+    arrays = {name: np.array(values)[order] for name, values in both.items()}
+    return Borders(**arrays, end=tuple(ends[index] for index in order))
 
 
 def _rough(found: Borders) -> Mask:
     """Return the intervals in which a line between neighbours is not the border, shape (n - 1,)."""
     x = found.delta
     rough = np.zeros(x.size - 1, dtype=bool)
-    for y in (found.limit, found.tangency, found.singular_velocity):
+    for y in (found.limit, found.tangency, found.singular_velocity, found.positive_stress):
         known = np.isfinite(y)
         rough |= known[:-1] != known[1:]
         chord = y[:-2] + (y[2:] - y[:-2]) * (x[1:-1] - x[:-2]) / (x[2:] - x[:-2])
