@@ -38,7 +38,8 @@ rule merge_von_mises_map:
     """Von Mises cones: a map of verdicts of its parts."""
     input:
         chunks=expand(
-            "results/von_mises/map/cone_{{angle}}/{chunk}.nc", chunk=range(VON_MISES["map"]["chunks"])
+            "results/von_mises/map/cone_{{angle}}/{chunk}.nc",
+            chunk=range(VON_MISES["map"]["chunks"]),
         ),
         code=code_of("merge_von_mises_map"),
     output:
@@ -116,7 +117,9 @@ rule plot_fig_vm_types:
     """Type and verdict of von Mises cones."""
     input:
         maps=expand("results/von_mises/map/cone_{angle}.nc", angle=VON_MISES["half_angles_deg"]),
-        domains=expand("results/von_mises/domain/cone_{angle}.nc", angle=VON_MISES["half_angles_deg"]),
+        domains=expand(
+            "results/von_mises/domain/cone_{angle}.nc", angle=VON_MISES["half_angles_deg"]
+        ),
         code=code_of("plot_fig_vm_types"),
     output:
         png=report(
@@ -172,7 +175,9 @@ rule plot_fig_vm_spectra:
 rule plot_fig_vm_decay:
     """Decay of end effects in elliptic von Mises cones."""
     input:
-        domains=expand("results/von_mises/domain/cone_{angle}.nc", angle=VON_MISES["half_angles_deg"]),
+        domains=expand(
+            "results/von_mises/domain/cone_{angle}.nc", angle=VON_MISES["half_angles_deg"]
+        ),
         code=code_of("plot_fig_vm_decay"),
     output:
         png=report(
@@ -201,7 +206,9 @@ rule plot_fig_models_stability:
     """What both models say of the same cones."""
     input:
         borders=expand("results/borders/cone_{angle}.nc", angle=VON_MISES["half_angles_deg"]),
-        domains=expand("results/von_mises/domain/cone_{angle}.nc", angle=VON_MISES["half_angles_deg"]),
+        domains=expand(
+            "results/von_mises/domain/cone_{angle}.nc", angle=VON_MISES["half_angles_deg"]
+        ),
         maps=expand("results/von_mises/map/cone_{angle}.nc", angle=VON_MISES["half_angles_deg"]),
         code=code_of("plot_fig_models_stability"),
     output:
