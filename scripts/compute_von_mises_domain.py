@@ -7,11 +7,10 @@ import numpy as np
 import xarray as xr
 
 from hopper_workflow import artifacts, jobs, ranges
-from hopper.domain.coupled import coupled_borders, decay_rates, stable_from
+from hopper.domain.coupled import coupled_borders, decay_rates, stable_up_to
 from hopper.problem import Hopper
 from hopper.von_mises.characteristics import AXIS_HYPERBOLIC, TENSION
 from hopper.von_mises.neutral import neutral_curve
-from hopper.von_mises.verdict import flow_limit
 from hopper.yield_conditions import VON_MISES
 from hopper_data.datasets import dataset
 from hopper_data.domain import COUPLED_BORDERS, COUPLED_NEUTRAL
@@ -46,12 +45,16 @@ def compute_von_mises_domain(
 
 
 def _edge(half_angle: float, delta: float, phi: float, points: int) -> dict[str, np.ndarray]:
-    """Follow the stable cones from the end of the neutral curve up to where flows end."""
+    """Follow the largest resolved friction of stable cones from the neutral curve's end on.
+
+    There is nothing to follow where the curve ends next to tension.
+    """
     inside = TENSION - radians(1)
-    limit = flow_limit(Hopper("cone", inside, half_angle, VON_MISES))
-    frictions = phi + (limit - phi) * np.arange(1, points + 1) / (points + 1)
-    found = [stable_from(half_angle, float(at), delta, inside) for at in frictions]
-    return {"delta": np.array(found), "phi": frictions}
+    if delta >= inside:
+        return dict.fromkeys(("delta", "phi"), np.full(points, np.nan))
+    deltas = delta + (inside - delta) * np.arange(1, points + 1) / points
+    hoppers = [Hopper("cone", float(at), half_angle, VON_MISES) for at in deltas]
+    return {"delta": deltas, "phi": np.array([stable_up_to(hopper, phi) for hopper in hoppers])}
 
 
 def _decay(
@@ -74,9 +77,9 @@ _GRID = "decay_row friction"
 TABLE = (
     *within("borders", COUPLED_BORDERS),
     *within("neutral", COUPLED_NEUTRAL),
-    angle("edge_delta", "delta from which cones are stable, not resolved below", "edge",
-          "edge.delta"),
-    angle("edge_phi", "its wall friction", "edge", "edge.phi"),
+    angle("edge_delta", "internal friction beyond the neutral curve's end", "edge", "edge.delta"),
+    angle("edge_phi", "wall friction up to which it is stable, not resolved beyond", "edge",
+          "edge.phi"),
     angle("decay_delta", "internal friction of elliptic flows", "decay_row", "decay.delta"),
     angle("decay_phi", "wall friction of elliptic flows", _GRID, "decay.phi"),
     number("decay_down", "least exponent of r, disturbances of the top", _GRID, "decay.down"),

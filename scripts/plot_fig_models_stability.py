@@ -34,7 +34,7 @@ def draw(
         for axis, model in zip(row, ("Mohr-Coulomb", "von Mises"), strict=True):
             axis.set_title(rf"{model}, cone, $\vartheta_w$ = {angle:g}°")
             axis.set_xlim(float(verdicts.delta.min()), float(data.tension))
-            axis.set_ylim(0, float(verdicts.phi.max()))
+            axis.set_ylim(0, von_mises_domains.top(verdicts))
         row[0].set_ylabel(r"wall friction $\phi$ (degrees)")
     for axis in axes[-1]:
         axis.set_xlabel(r"internal friction $\delta$ (degrees)")

@@ -25,7 +25,10 @@ def draw(domains: Sequence[str], *, half_angles_deg: Sequence[float]) -> Figure:
     for axis in axes[-1]:
         axis.set_xlabel(r"internal friction $\delta$ (degrees)")
     plotting.letter(axes.flat)
-    figure.suptitle("Contours of the exponent $a$; dashed: end of elliptic flows", fontsize=8)
+    figure.suptitle(
+        "Contours of the exponent $a$; dashed: end of elliptic flows; white below it: not resolved",
+        fontsize=8,
+    )
     return figure
 
 

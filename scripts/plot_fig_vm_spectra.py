@@ -30,7 +30,8 @@ def draw(spectra: Sequence[str]) -> Figure:
             axis.plot(roots.real, roots.imag, "o", color=plotting.ORANGE, markersize=4.6,
                       mfc="none", mew=0.7, label="law of high frequency")  # fmt: skip
         axis.plot(0, 0, "s", color="black", markersize=3.2, label=r"flow rate, $\lambda$ = 0")
-        axis.set_title(f"{kind}\n{plotting.hopper_of(data)}")
+        friction = rf"$\mu$ = {plotting.parameters_of(data)['mu']:g}"
+        axis.set_title(f"{kind}, {friction}\n{plotting.hopper_of(data)}")
         axis.set_xlabel(r"Re $\lambda$")
         axis.margins(x=0.12)
         axis.set_ylim(bottom=-0.02 * modes.imag.max())

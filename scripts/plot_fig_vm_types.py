@@ -21,7 +21,7 @@ def draw(
         axis.set_title(rf"von Mises cone, $\vartheta_w$ = {angle:g}°")
         axis.set_xlabel(r"internal friction $\delta$ (degrees)")
         axis.set_ylabel(r"wall friction $\phi$ (degrees)")
-        axis.set_ylim(0, float(cells.phi.max()))
+        axis.set_ylim(0, von_mises_domains.top(cells))
     plotting.letter(axes)
     plotting.below(figure, plotting.all_keys(axes), 4)
     return figure

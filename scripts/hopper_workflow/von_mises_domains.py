@@ -6,15 +6,14 @@ from matplotlib.axes import Axes
 
 from hopper_workflow import plotting
 
-# Lightness tells them apart in grey: no flow 0.80, unstable 0.58, stable 0.95, elliptic 0.43,
+# Lightness tells them apart in grey: no solution 0.80, unstable 0.58, stable 0.95, elliptic 0.43,
 # mixed 0.30.
 _COLORS = {
-    "no radial flow": "0.80",
+    "no radial solution": "0.80",
     "mixed type": "#5B4A78",
     "elliptic": "#41779A",
     "unstable": "#D98A1F",
     "stable": "#E3F3FB",
-    "not resolved": "0.15",
 }
 
 
@@ -23,7 +22,7 @@ def shade(axis: Axes, data: xr.Dataset) -> None:
     delta, limit = data.delta.values, data.limit_phi.values
     below = delta < float(data.axis_hyperbolic)
     filled: dict[str, tuple[np.ndarray, np.ndarray | float]] = {
-        "no radial flow": (delta, 90.0),
+        "no radial solution": (delta, 90.0),
         "mixed type": (delta[below], limit[below]),
         "elliptic": (delta[below], np.nan_to_num(data.sonic_phi.values[below])),
         "unstable": (delta[~below], limit[~below]),
@@ -31,37 +30,37 @@ def shade(axis: Axes, data: xr.Dataset) -> None:
     for name, (x, top) in filled.items():
         axis.fill_between(x, 0, top, color=_COLORS[name], linewidth=0, label=name)
     axis.fill(*_stable(data), color=_COLORS["stable"], linewidth=0, label="stable")
-    axis.fill(*_unresolved(data), color=_COLORS["not resolved"], linewidth=0)
+    axis.fill(*_unresolved(data), facecolor=_COLORS["stable"], edgecolor="black", hatch=7 * "x",
+              linewidth=0, label="not resolved")  # fmt: skip
     axis.set_xlim(delta[0], float(data.tension))
 
 
 def _stable(data: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
-    """Return the outline of stable cones: neutral curve, resolved edge, limit, and the corner.
-
-    Where the neutral curve ends at the border of tension nothing but the corner follows.
-    """
-    known = np.isfinite(data.edge_delta.values)
-    edge_delta, edge_phi = data.edge_delta.values[known], data.edge_phi.values[known]
-    delta, limit = data.delta.values, data.limit_phi.values
-    beyond = delta > edge_delta[-1] if edge_delta.size else np.zeros(delta.size, dtype=bool)
-    # The limit rises with delta: only what lies above the last stable friction bounds it.
-    beyond &= limit > edge_phi[-1] if edge_phi.size else beyond
+    """Return the outline of stable cones: neutral curve, resolved edge, corner at tension."""
+    edge_delta, edge_phi = _edge(data)
     return (
-        np.concatenate([data.neutral_delta, edge_delta, delta[beyond], [float(data.tension)]]),
-        np.concatenate([data.neutral_phi, edge_phi, limit[beyond], [0.0]]),
+        np.concatenate([data.neutral_delta, edge_delta, [float(data.tension)]]),
+        np.concatenate([data.neutral_phi, edge_phi, [0.0]]),
     )
 
 
 def _unresolved(data: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
     """Return the outline of what lies between the neutral curve's end, the edge and the limit."""
-    known = np.isfinite(data.edge_delta.values)
-    if not known.any():
-        return np.empty(0), np.empty(0)
-    x = np.concatenate([data.neutral_delta[-1:], data.edge_delta[known]])
-    y = np.concatenate([data.neutral_phi[-1:], data.edge_phi[known]])
-    delta, limit = data.delta.values, data.limit_phi.values
-    top = np.linspace(np.interp(y[-1], limit, delta), x[0], 50)
-    return np.concatenate([x, top]), np.concatenate([y, np.interp(top, delta, limit)])
+    edge_delta, edge_phi = _edge(data)
+    if not edge_delta.size:
+        return edge_delta, edge_phi
+    end = float(data.neutral_delta[-1])
+    limit = np.linspace(float(data.tension), end, 100)
+    return (
+        np.concatenate([[end], edge_delta, [float(data.tension)], limit]),
+        np.concatenate([data.neutral_phi[-1:], edge_phi, [0.0],
+                        np.interp(limit, data.delta, data.limit_phi)]),
+    )  # fmt: skip
+
+
+def _edge(data: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
+    known = np.isfinite(data.edge_phi.values)
+    return data.edge_delta.values[known], data.edge_phi.values[known]
 
 
 def draw_borders(axis: Axes, data: xr.Dataset) -> None:
@@ -84,7 +83,12 @@ def mark_unresolved(axis: Axes, cells: xr.Dataset) -> None:
     """Mark the points of a map that have no verdict because their modes are not resolved."""
     rows, columns = np.nonzero((cells.region == "not_converged").to_numpy())
     axis.plot(cells.delta.values[rows], cells.phi.values[columns], "x", color="black",
-              markersize=3, mew=0.7, label="no verdict: not resolved")  # fmt: skip
+              markersize=3, mew=0.7, label="point of the map without a verdict")  # fmt: skip
+
+
+def top(cells: xr.Dataset) -> float:
+    """Return where panels end: half a cell above the last row of a map."""
+    return float(1.5 * cells.phi[-1] - 0.5 * cells.phi[-2])
 
 
 def name_regions(axis: Axes, data: xr.Dataset) -> None:

@@ -9,7 +9,7 @@ from hopper.domain.coupled import (
     COUPLED_REGIONS,
     coupled_borders,
     decay_rates,
-    stable_from,
+    stable_up_to,
     sweep_coupled,
 )
 from hopper.errors import InvalidParameterError
@@ -68,12 +68,13 @@ def test_decay_rates_are_those_of_the_reference():
     assert up[1] == pytest.approx(known["decay_up"], abs=1e-8)
 
 
-def test_stable_from():
+def test_stable_up_to():
     phi = radians(31)
-    edge = stable_from(radians(10), phi, radians(36), radians(59))
-    assert judge(cone(degrees(edge) + 0.01, 10), phi).verdict == "stable"
-    assert judge(cone(degrees(edge) - 0.02, 10), phi).verdict != "stable"
-    assert isnan(stable_from(radians(30), radians(10), radians(36), radians(59)))
+    hopper = cone(50, 10)
+    edge = stable_up_to(hopper, phi)
+    assert judge(hopper, edge).verdict == "stable"
+    assert judge(hopper, edge + 1.1e-3).verdict == "not_converged"
+    assert isnan(stable_up_to(cone(50, 30), radians(10)))
 
 
 def test_bad_sweeps_are_refused():

@@ -11,7 +11,6 @@ from hopper.arguments import Radians, Row, checked
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.domain.borders import friction_reaching
-from hopper.domain.growth import COARSE
 from hopper.errors import ConvergenceError, HopperError, InvalidParameterError
 from hopper.problem import Hopper
 from hopper.radial.branch import branch_up_to, members_on
@@ -32,6 +31,8 @@ from hopper.yield_conditions import VON_MISES
 COUPLED_REGIONS: tuple[Kind, ...] = get_args(Kind)
 # Errors of the radial fields that leave the modes accurate.
 _FIELDS = 1e-11
+# Where resolution ends is no sharper than this; radians.
+_EDGE = 1e-3
 
 
 @dataclass(frozen=True)
@@ -138,7 +139,7 @@ class CoupledBorders:
     sonic: Array
     tangency: Array
 
-    __repr__ = brief("delta deg", "limit deg", "sonic deg", "tangency deg")
+    __repr__ = brief("delta deg", "limit deg", "sonic deg")
 
 
 @checked
@@ -164,29 +165,28 @@ def coupled_borders(half_angle: Radians, deltas: Row) -> CoupledBorders:
 
 
 @checked
-def stable_from(half_angle: Radians, friction_angle: Radians, below: float, above: float) -> float:
-    """Return the delta (radians) above which cones are stable, to 1e-4, where no mode is neutral.
+def stable_up_to(hopper: Hopper, friction_angle: Radians) -> float:
+    """Return the wall friction angle (radians) up to which a cone is stable, to 1e-3.
 
-    Beyond the end of the neutral curve stable cones border on ones that are not resolved.
+    Beyond the end of the neutral curve stable cones border on ones that are not resolved, up to
+    the limit of flow. NaN if the cone is not stable at ``friction_angle``.
 
-    Parameters
-    ----------
-    half_angle, friction_angle : float
-        theta_w and phi, radians.
-    below, above : float
-        Deltas (radians), of which the second is stable.
+    Raises
+    ------
+    InvalidParameterError
+        As :func:`sweep_coupled`.
     """
 
-    def stable(delta: float) -> bool:
-        hopper = Hopper("cone", delta, half_angle, VON_MISES)
-        return judge(hopper, friction_angle).verdict == "stable"
+    def stable(phi: float) -> bool:
+        return judge(hopper, phi).verdict == "stable"
 
-    if not stable(above):
+    if not stable(friction_angle):
         return nan
-    while above - below > COARSE:
+    below, above = friction_angle, flow_limit(hopper)
+    while above - below > _EDGE:
         middle = (below + above) / 2
-        below, above = (below, middle) if stable(middle) else (middle, above)
-    return above
+        below, above = (middle, above) if stable(middle) else (below, middle)
+    return below
 
 
 @checked
