@@ -67,6 +67,8 @@ def coupled_sentence(found: CoupledStability) -> str:
             "mode grows is tested, not proved.",
             "unstable": f"Unstable: {known} can grow down the hopper, governed by {cause}.",
         }
+        if found.abscissa is None:
+            words["unstable"] = f"Unstable: {known} can grow, {found.judged.reason}."
         sentence = words[found.verdict]
     if found.judged.slanted:
         sentence += " Data belong on a slanted surface: a characteristic lies in r = const."

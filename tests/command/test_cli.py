@@ -249,6 +249,15 @@ def test_stability_of_other_von_mises_flows(answer, run):
     tension = answer(f"stability {SOFT} --delta 62 --half-angle 10 --mu 0.1")
     assert (tension["verdict"], tension["eigenvalues"]) == ("tension", [])
     assert "T_rr <= 0 on the axis" in tension["reason"]
+    # Nothing bounds how fast modes that are not resolved grow.
+    case = f"stability {SOFT} --delta 35.52 --half-angle 10 --phi 24"
+    open_above = answer(case)
+    assert open_above["verdict"] == "unstable"
+    assert open_above["abscissa"] is open_above["governed_by"] is None
+    assert "and modes not resolved may exceed it." in run(case)[1]
+    unknown = answer(f"stability {SOFT} --delta 39.435 --half-angle 10 --phi 31.5")
+    assert (unknown["verdict"], unknown["abscissa"]) == ("not_converged", None)
+    assert run(case.replace("35.52", "39.435").replace("24", "31.5"))[0] == 0
     code, out, err = run(f"stability {SOFT} --delta 50 --half-angle 30 --phi 27.5 --json")
     assert (code, json.loads(out)["error"]["kind"]) == (1, "NoRadialSolutionError")
     assert "psi reaches 45 deg at phi = 26.8994 deg" in err

@@ -93,10 +93,19 @@ def test_without_the_test_of_resolution_nothing_is_stable():
     for delta, phi in ((40, 5.71), (41, 27)):
         quick = verdict(delta, 10, phi, resolve=False)
         assert quick.verdict == "not_converged"
-        assert quick.growth.bound > 0 > quick.abscissa
-        assert quick.error_estimate >= quick.growth.bound - quick.abscissa
+        assert quick.growth.bound > 0 > quick.growth.abscissa
+        assert isnan(quick.abscissa)
         assert verdict(delta, 10, phi).verdict == "stable"
     assert verdict(40, 30, 11.31, resolve=False).verdict == "unstable"
+
+
+def test_no_abscissa_where_nothing_bounds_the_modes_not_resolved():
+    found = verdict(35.52, 10, 24)
+    assert found.verdict == "unstable"
+    assert found.growth.bound == inf
+    assert isnan(found.abscissa)
+    assert isnan(found.error_estimate)
+    assert "modes not resolved may exceed it" in found.reason
 
 
 def test_stable_needs_few_errors_of_the_law():

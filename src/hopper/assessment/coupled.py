@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import atan
+from math import atan, isfinite
 
 import numpy as np
 
@@ -43,7 +43,7 @@ class CoupledStability:
         But for the flow rate; errors with what the fields leave uncertain.
     abscissa : Quantity or None
         Supremum of Re(lambda) of a hyperbolic flow, the flow rate left out; the error holds what
-        modes that are not resolved may add to it.
+        modes that are not resolved may add to it. None where nothing bounds that.
     decay_down, decay_up : Quantity or None
         Exponents of r of an elliptic flow: disturbances of the top die out at least like
         r**decay_down, those of the outlet like r**-decay_up.
@@ -75,9 +75,9 @@ class CoupledStability:
 
     @property
     def governed_by(self) -> Governor | None:
-        """What the abscissa is due to: a mode, or the upper strip."""
+        """What the abscissa is due to, if it is known: a mode, or the upper strip."""
         growth = self.judged.growth
-        return None if growth is None else growth.governed_by
+        return None if growth is None or self.abscissa is None else growth.governed_by
 
 
 @checked
@@ -112,8 +112,8 @@ def describe_coupled(solution: RadialSolution) -> CoupledStability:
         return CoupledStability(judged)
     modes = _with_fields(solution, judged.modes)
     share = modes.errors - judged.modes.errors
-    if judged.growth is not None:
-        value = judged.abscissa
+    value = judged.abscissa
+    if isfinite(value):
         error = judged.error_estimate + _share_of(value, modes, share)
         return CoupledStability(judged, modes, Quantity(value, error))
     if judged.end_effects is None:

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import atan, degrees, nan, pi
+from math import atan, degrees, isfinite, nan, pi
 from typing import Literal
 
 from scipy.optimize import brentq
@@ -58,7 +58,8 @@ class Verdict:
     modes : ResolvedModes or None
         Resolved modes, of mixed flows as information only.
     abscissa : float
-        sup Re(lambda) but for the flow rate, of hyperbolic flows; else NaN.
+        sup Re(lambda) but for the flow rate, of hyperbolic flows; else NaN, also of unstable ones
+        of which no test bounds what modes not resolved may add.
     error_estimate : float
         Of the abscissa, with what modes not resolved may add to it; of the decay exponents.
     border : float
@@ -252,13 +253,16 @@ def _hyperbolic(found: Growth, kind: EquationType) -> Verdict:
     value = f"sup Re(lambda) = {found.abscissa:.6g}, by a {found.governed_by}"
     if found.abscissa > found.error_estimate:
         verdict, reason = "unstable", value
+        if not isfinite(error):
+            reason = f"Re(lambda) up to {found.abscissa:.6g}, and modes not resolved may exceed it"
     elif found.bound + found.error_estimate < 0:
         verdict, reason = "stable", f"{value}; no mode seen or expected above {found.bound:.6g}"
     elif error <= _NEUTRAL:
         verdict, reason = "neutral", f"{value}, which is 0 within its error"
     else:
         verdict, reason = "not_converged", f"{value}, but modes not resolved may grow"
+    known = verdict != "not_converged" and isfinite(error)
     return Verdict(
-        verdict, reason, kind, growth=found, modes=found.modes, abscissa=found.abscissa,
-        error_estimate=error,
+        verdict, reason, kind, growth=found, modes=found.modes,
+        abscissa=found.abscissa if known else nan, error_estimate=error if known else nan,
     )  # fmt: skip
