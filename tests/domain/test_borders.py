@@ -272,3 +272,7 @@ def test_traced_borders_have_no_corner_between_their_points(geometry):
     exact = borders(geometry, radians(30), between).limit
     drawn = np.interp(between, traced.delta, traced.limit)
     assert np.degrees(np.abs(drawn - exact)).max() < 0.05
+
+
+def test_traced_borders_of_no_delta_are_empty():
+    assert traced_borders("cone", radians(30), []).limit.size == 0

@@ -455,6 +455,31 @@ def test_psi_maximum_against_dense_samples(kind, delta, half_angle, fraction):
     assert solution.psi_at(angle)[0] == pytest.approx(largest, abs=1e-14)
 
 
+@pytest.mark.parametrize(
+    ("case", "phi"),
+    [
+        (("cone", 50, 30), 15),
+        (("cone", 35, 30), 18),
+        (("cone", 55, 30), 16.2),
+        (("wedge", 60, 30), 29),
+    ],
+)
+def test_psi_maximum_inside_against_its_slope(case, phi):
+    solution = solve_radial(make(*case), radians(phi))
+    theta, largest = solution.psi_maximum()
+    assert theta < 0.99 * solution.hopper.half_angle
+    around = theta + 0.1 * solution.hopper.half_angle * np.array([-1, 1])
+    found = brentq(lambda at: float(solution.fields(at)[3][0]), around[0], around[1], xtol=1e-14)
+    assert abs(solution.psi_at(found)[0] - largest) < 1e-14
+    assert abs(found - theta) < 1e-9
+    assert solution.psi.max() < largest - 1e-8
+
+
+def test_psi_maximum_at_the_wall():
+    solution = solve_radial(make("wedge", 45, 30), radians(44))
+    assert solution.psi_maximum() == (solution.hopper.half_angle, solution.psi_wall)
+
+
 def test_psi_maximum_just_inside_the_wall():
     hopper = make("cone", 30, 10)
 

@@ -25,8 +25,9 @@ def solutions_exist(
     return counted(
         int(np.sum(errors < largest_error)),
         errors.size,
-        f"Largest error estimate {upper_bound(errors.max())}. In the hopper of the figures they "
-        f"exist up to mu = {limit:.4f} (Mohr-Coulomb) and {limit_von_mises:.4f} (von Mises) only.",
+        f"Largest error estimate {upper_bound(errors.max(), largest_error)}. In the hopper of the "
+        f"figures they exist up to mu = {limit:.4f} (Mohr-Coulomb) and {limit_von_mises:.4f} (von "
+        "Mises) only.",
     )
 
 
@@ -52,7 +53,7 @@ def stress_decouples_for_mohr_coulomb_only(models: xr.Dataset, *, rounding: floa
     coulomb = values(models, "coupling", model="mohr-coulomb").max()
     von_mises = values(models, "coupling", model="von-mises").min()
     error = float(values(models, "error_radial").max()) * von_mises
-    remark = f"Mohr-Coulomb {upper_bound(coulomb)}, von Mises {von_mises:.3g}."
+    remark = f"Mohr-Coulomb {upper_bound(coulomb, rounding)}, von Mises {von_mises:.3g}."
     if coulomb > rounding:
         return below(coulomb, rounding, error, remark)
     return above(von_mises, rounding, error, remark)
@@ -173,7 +174,7 @@ def jenike_tabulated_them(chart: xr.Dataset, *, reading_error: float) -> Finding
     count = int(np.sum(values(chart, "point_phi") >= parameters(chart)["least_friction_deg"]))
     remark = (
         f"Flow factors at {count} points of a published chart. The error is that of reading them; "
-        f"that of the computation is {upper_bound(computed)}."
+        f"that of the computation is {upper_bound(computed, reading_error / 1000)}."
     )
     # The mean square of so many independent errors is uncertain by sqrt(2 / count) of itself.
     return below(deviation, reading_error, reading_error / sqrt(2 * count), remark)

@@ -40,6 +40,12 @@ class Claim:
         return f"{self.test} {label}: {'; '.join(used)}." if used else self.test
 
     @property
+    def bound(self) -> str:
+        """The threshold where there is one only, else ``none``."""
+        values = [item["value"] for item in self.thresholds.values()]
+        return f"{values[0]:g}" if len(values) == 1 else "none"
+
+    @property
     def paths(self) -> list[str]:
         """Artifacts as rules name them."""
         return [f"results/{path}" for path in self.artifacts.values()]

@@ -20,11 +20,10 @@ from hopper.domain.growth import ROOT_TOLERANCE
 from hopper.domain.neutral_curve import NeutralCurve
 from hopper.errors import NoRadialSolutionError
 from hopper.problem import Geometry, Hopper
-from hopper.radial.collocation import Closure, Member
+from hopper.radial.collocation import Closure, Member, largest_psi
 from hopper.radial.family import family, neighbour, smooth_wall_member
 from hopper.radial.friction_limit import friction_limit
 from hopper.radial.members import member_with_tau
-from hopper.radial.solution import solution_of
 from hopper.stability.tilted import require_mohr_coulomb, tangency_angle
 
 # How far a border may be off the chord of its neighbours, radians, and how often an interval is
@@ -48,7 +47,7 @@ def friction_reaching(hopper: Hopper, psi: float) -> float | None:
     try:
         for member in family(hopper):
             # The nodes miss the largest psi by far less than this margin.
-            if member.psi.max() >= 0.9 * psi and _largest_psi(member) >= psi:
+            if member.psi.max() >= 0.9 * psi and largest_psi(member) >= psi:
                 return _friction_between(below, member, psi) if below else None
             below = member
     except NoRadialSolutionError:
@@ -56,22 +55,18 @@ def friction_reaching(hopper: Hopper, psi: float) -> float | None:
     return None
 
 
-def _largest_psi(member: Member) -> float:
-    return solution_of(member).psi_maximum()[1]
-
-
 def _friction_between(below: Member, above: Member, psi: float) -> float | None:
     """Locate the level between two members; None beyond the fold or without positive stress."""
     law, delta = below.hopper.material, below.hopper.delta
     if below.psi_wall < psi <= above.psi_wall:
         at_wall = neighbour(below, Closure("psi_wall", psi))
-        if _largest_psi(at_wall) <= psi + ROOT_TOLERANCE:
+        if largest_psi(at_wall) <= psi + ROOT_TOLERANCE:
             return law.friction_angle(delta, psi) if at_wall.tau > 0 else None
     unknown = above.closure.unknown
     low, high = (float(getattr(member, unknown)) for member in (below, above))
 
     def excess(value: float) -> float:
-        return _largest_psi(neighbour(below, Closure(unknown, value))) - psi
+        return largest_psi(neighbour(below, Closure(unknown, value))) - psi
 
     # psi at the wall is at most the largest psi: no need to look beyond the level.
     high = min(high, psi) if unknown == "psi_wall" else high
@@ -230,7 +225,7 @@ def _merged(one: Borders, other: Borders) -> Borders:
 def _rough(found: Borders) -> Mask:
     """Return the intervals in which a line between neighbours is not the border, shape (n - 1,)."""
     x = found.delta
-    rough = np.zeros(x.size - 1, dtype=bool)
+    rough = np.zeros(x[1:].size, dtype=bool)
     for y in (found.limit, found.tangency, found.singular_velocity, found.positive_stress):
         known = np.isfinite(y)
         rough |= known[:-1] != known[1:]

@@ -14,7 +14,7 @@ from hopper.domain.borders import friction_reaching
 from hopper.errors import ConvergenceError, HopperError, InvalidParameterError
 from hopper.problem import Hopper
 from hopper.radial.branch import branch_up_to, members_on
-from hopper.radial.collocation import Member
+from hopper.radial.collocation import Member, largest_psi
 from hopper.radial.solution import solution_of
 from hopper.values import require_angle
 from hopper.von_mises.characteristics import (
@@ -52,7 +52,7 @@ class CoupledSweep:
     error_estimate : array, shape (n,)
         Of the abscissa or the exponents.
     psi_max : array, shape (n,)
-        Largest psi on the radial solution's nodes, radians.
+        Largest psi of the radial solution, radians.
     """
 
     friction_angle: Array
@@ -92,7 +92,7 @@ def sweep_coupled(hopper: Hopper, friction_angles: Row) -> CoupledSweep:
         slanted[i] = found.slanted
         ends = found.end_effects
         rates = (ends.decay_down, ends.decay_up) if ends else (nan, nan)
-        largest = float(member.psi.max()) if member else nan
+        largest = largest_psi(member) if member else nan
         values[:, i] = found.abscissa, *rates, found.error_estimate, largest
     return CoupledSweep(angles, region, slanted, *values)
 

@@ -9,7 +9,8 @@ All radial solutions of a hopper form a curve with one member for each tau.
 """
 
 from dataclasses import dataclass, replace
-from math import inf, isfinite
+from functools import lru_cache
+from math import cos, inf, isfinite
 from sys import float_info
 
 import numpy as np
@@ -19,13 +20,13 @@ from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.problem import Hopper
 from hopper.radial.equations import slopes
-from hopper.radial.grid import Grid, half_grid, transfer
+from hopper.radial.grid import Grid, transfer
 from hopper.radial.steps import CLOSED, Unknown, closed_system, normal_weight, size_of, solved_by
 from hopper.spectral import chebyshev
 
 _NEWTON_STEPS = 25
-# Half-grid points on which an extremum inside is looked for, and how much closer the next ones are.
-_FINE, _CLOSER = 80, 0.05
+# Newton steps from a sample to the extremum beside it, and the last one's size.
+_TO_MAXIMUM, _FLAT = 6, 1e-12
 # Radians below the singular angle from which on the distance to a square root at the wall counts.
 FAR = 0.3
 # That distance over theta_w from which on psi_w grows up to the singular angle.
@@ -158,23 +159,49 @@ def moved(u: Array, old: Grid, new: Grid) -> Array:
 
 
 @checked
+def psi_maximum(member: Member) -> tuple[float, float]:
+    """Return (theta, psi), radians, at the largest psi on [0, theta_w]."""
+    x, psi = _peak(member)
+    return member.grid.half_angle * float(member.grid.map.forward(np.array([x]))[0][0]), psi
+
+
+@checked
 def largest_psi(member: Member) -> float:
-    """Return the largest psi (radians) on [0, theta_w]: at the wall, or of a parabola inside."""
-    if member.psi.argmax() == member.grid.size - 1:
-        return member.psi_wall
-    fine = half_grid(_FINE, member.grid.half_angle, member.grid.map.clustering)
-    theta, psi = fine.theta, transfer(member.grid, fine, "odd") @ member.psi
-    for _ in range(2):
-        top = int(psi[1:-1].argmax()) + 1
-        three = slice(top - 1, top + 2)
-        x, y = theta[three], psi[three]
-        first, second = np.diff(y) / np.diff(x)
-        bend = (second - first) / (x[2] - x[0])
-        slope = first + bend * (x[1] - x[0])
-        place, step = x[1] - slope / (2 * bend), _CLOSER * (x[2] - x[0])
-        theta = np.clip(place + step * np.arange(-1, 2), 0, member.grid.half_angle)
-        psi = member.grid.interpolation(theta, "odd") @ member.psi
-    return float(psi.max())
+    """Return the largest psi (radians) on [0, theta_w]."""
+    return _peak(member)[1]
+
+
+def _peak(member: Member) -> tuple[float, float]:
+    """Return the Chebyshev point of the largest psi, and that psi (radians)."""
+    coefficients, angles, samples = _psi_samples(member.grid.size)
+    top = int((samples @ member.psi).argmax())
+    series = coefficients @ member.psi
+    odd = 2 * np.arange(series.size) + 1
+    angle, step = angles[top], angles[1]
+    if not top:
+        if odd * odd @ series >= 0:
+            return 1.0, member.psi_wall
+        angle = step / 2  # psi falls towards the wall, from a maximum before it
+    # Newton's iteration for the slope of the series of cos(odd * angle).
+    for _ in range(_TO_MAXIMUM):
+        slope = float(np.sin(odd * angle) @ (odd * series))
+        bend = float(np.cos(odd * angle) @ (odd * odd * series))
+        if bend <= 0 or abs(slope) < _FLAT * bend:
+            break
+        angle = min(max(angle - slope / bend, angles[top] - step), angles[top] + step)
+    return cos(angle), float(np.cos(odd * angle) @ series)
+
+
+@lru_cache(maxsize=64)
+def _psi_samples(size: int) -> tuple[Array, Array, Array]:
+    """Return matrices from psi to its coefficients and to values at angles, and the angles.
+
+    The Chebyshev point of an angle is its cosine: 0 is the wall, pi/2 the axis.
+    """
+    coefficients = chebyshev.last_half_coefficients(size, "odd", size)
+    angles = np.linspace(0, np.pi / 2, 4 * size)
+    values = np.cos(np.outer(angles, 2 * np.arange(size) + 1)) @ coefficients
+    return coefficients, angles, values
 
 
 @checked

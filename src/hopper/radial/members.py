@@ -206,10 +206,9 @@ def physical_member(
     if friction_angle >= largest * (1 - _ROUNDING):
         return None
     closure = Closure("psi_wall", psi_wall)
-    for guess in (start, None) if start else (None,):
-        member = solve(hopper, closure, guess)
-        if member is not None and member.rising and _certain(member):
-            return member
+    member = solve(hopper, closure, start)
+    if member is not None and member.rising and _certain(member):
+        return member
     try:
         piece = first_piece(hopper)
     except NoRadialSolutionError:
