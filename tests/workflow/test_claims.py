@@ -337,6 +337,11 @@ CHANGES = {
         ("models", "mohr_coulomb_singular_psi"): constant(1)
     },
     "mohr_coulomb_is_more_conservative": {("moderate", "u_wall"): of_model(0, 0.1)},
+    "mohr_coulomb_is_more_conservative_on_stability": {
+        **each(("coulomb_10", "coulomb_30"), "abscissa", constant(1.0)),
+        **each(("von_mises_10", "von_mises_30"), "region", constant("stable")),
+    },
+    "von_mises_is_more_challenging": each(("cone_10", "cone_30"), "region", constant("stable")),
     "equations_as_printed": {("linear", "printed_ratio"): constant(1)},
     "spectrum_as_printed": {("linear", "printed_ratio"): plus(1e-3)},
     "negative_means_stable": {("cone", "abscissa"): times(-1)},

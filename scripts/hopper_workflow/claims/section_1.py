@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from hopper_workflow.claims.finding import Finding, above, below, counted, upper_bound
-from hopper_workflow.claims.results import number, parameters, values
+from hopper_workflow.claims.results import number, parameters, some, values
 
 
 def solutions_exist(
@@ -100,15 +100,32 @@ def _with_time(maps: tuple[xr.Dataset, ...], step: int) -> tuple[int, int]:
     return inside, solved
 
 
-def von_mises_is_not_always_hyperbolic(models: xr.Dataset) -> Finding:
+def von_mises_is_not_always_hyperbolic(models: xr.Dataset, domain: xr.Dataset) -> Finding:
     counts = values(models, "real_characteristics", model="von-mises")
     share, coarse = (float(np.mean(c < 4)) for c in (counts, counts[::2, ::2]))
-    delta, psi = values(models, "delta"), values(models, "psi")
-    on_axis = delta[counts[:, int(np.argmin(psi))] == 4]
-    all_four = f"from {on_axis.min():g} to {on_axis.max():g} deg" if on_axis.size else "nowhere"
+    first, last = (number(domain, name) for name in ("axis_hyperbolic", "tension"))
     verdict = above(share, 0.0, 0.0, "").verdict
-    remark = f"On the axis (psi = 0) hyperbolic for delta {all_four} only."
+    remark = (
+        f"On the axis (psi = 0) hyperbolic from delta = arcsin(1/sqrt(3)) = {first:.4f} to "
+        f"{last:g} deg only, elsewhere where cos(2 psi) < sqrt(3) sin(delta)."
+    )
     return Finding(share, abs(share - coarse), verdict, remark)
+
+
+def von_mises_is_more_challenging(cone_10: xr.Dataset, cone_30: xr.Dataset) -> Finding:
+    shares, words = [], []
+    for data, angle in ((cone_10, 10), (cone_30, 30)):
+        region = values(data, "region")
+        flows = some(region[~np.isin(region, ["no_radial_solution", "tension"])], "radial flow")
+        counts = {name: int(np.sum(flows == name)) for name in np.unique(flows)}
+        shares.append(float(np.isin(flows, ["saint_venant", "mixed"]).mean()))
+        listed = ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in counts.items())
+        words.append(f"half angle {angle} deg: {listed}")
+    remark = (
+        f"{'; '.join(words)}. Saint Venant: elliptic, disturbances of the ends die out away from "
+        "them. The coupled problem is an ordinary eigenproblem in four unknowns."
+    )
+    return above(min(shares), 0.0, 0.0, remark)
 
 
 def sharp_and_reliable(wedge: xr.Dataset, cone: xr.Dataset, *, same: float) -> Finding:

@@ -84,7 +84,8 @@ def paths_of(claims: Sequence[Claim]) -> list[str]:
 
 def half_angles_in(paths: Sequence[str]) -> list[str]:
     """Return the half angles, in degrees, of the maps and borders among the paths, sorted."""
-    found = (re.fullmatch(r"results/(map|borders|paper_border)/\w+_([\d.]+)\.nc", p) for p in paths)
+    kinds = r"map|borders|paper_border|von_mises/map|von_mises/domain"
+    found = (re.fullmatch(rf"results/({kinds})/\w+_([\d.]+)\.nc", path) for path in paths)
     return sorted({match[2] for match in found if match})
 
 
