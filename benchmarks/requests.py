@@ -26,6 +26,8 @@ DOCUMENT = ROOT / "docs/cluster.md"
 MARKS = {PROFILE: ("# Below: ", None), DOCUMENT: ("<!-- Below: ", "<!-- Above")}
 # Their jobs ask by the size of the map, in workflow/rules.
 OF_MAPS = ("compute_map_chunk", "merge_map", "plot_fig_4_5_map", "judge_claims")
+# The same, and none of the large maps of the document.
+OF_GRIDS = (*OF_MAPS, "compute_von_mises_chunk")
 # Large enough to outweigh what else the rules need.
 SIDE = 4000
 LARGE = {"side": 10_000, "chunks": 400, "jobs": 100}
@@ -51,11 +53,16 @@ def measured(run: Path) -> dict[str, Cost]:
 
 def grown(costs: dict[str, Cost], run: Path) -> dict[str, Cost]:
     """Add what a further point costs, from one made-up map; time of a chunk from the run."""
-    sizes = yaml.safe_load((run / "config.yaml").read_text(encoding="utf-8"))["stability_map"]
+    config = yaml.safe_load((run / "config.yaml").read_text(encoding="utf-8"))
+    sizes, grid = config["stability_map"], config["von_mises"]["map"]
     rows, columns = sizes["delta_deg"]["points"], sizes["phi_deg"]["points"]
     points = dict.fromkeys(OF_MAPS, rows * columns)
     points["compute_map_chunk"] = ceil(rows / sizes["chunks"]) * columns
     result = dict(costs)
+    if chunk := costs.get("compute_von_mises_chunk"):
+        size = ceil(grid["delta_deg"]["points"] / grid["chunks"]) * grid["phi_deg"]["points"]
+        microseconds = 1e6 * chunk.seconds / size
+        result[chunk.rule] = chunk._replace(points=size, microseconds=microseconds)
     with tempfile.TemporaryDirectory() as folder:
         for rule in ("compute_map_chunk", "write chunks", *OF_MAPS[1:]):
             command = ["benchmarks.map_growth", rule, str(SIDE), str(run.resolve()), folder]
@@ -90,7 +97,7 @@ def requests(costs: dict[str, Cost]) -> str:
     """Return the requests of all rules but those of maps, as YAML for the profile."""
     lines = ["set-resources:"]
     for rule, cost in costs.items():
-        if rule not in OF_MAPS:
+        if rule not in OF_GRIDS:
             asked = of_job(cost)
             lines += [f"  {rule}:", *(f"    {name}: attempt * {n}" for name, n in asked.items())]
     return "\n".join(lines) + "\n"

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from hopper_workflow import artifacts, jobs
+from hopper.arrays import Array
 from hopper.domain.borders import borders, stable_area
 from hopper.domain.neutral_curve import NeutralCurve, neutral_curve
 from hopper.domain.neutral_points import neutral_delta
@@ -22,8 +23,12 @@ def compute_domain_angle(
     phis_deg: Sequence[float],
     largest_delta_deg: float,
     neutral_step_deg: float,
+    curve_points: int,
 ) -> xr.Dataset:
-    """Compute the area of the domain up to a largest delta, and neutral deltas."""
+    """Compute the area of the domain up to a largest delta, and neutral deltas.
+
+    Neutral deltas are roots at each half angle, and at as many in between as curves need.
+    """
     report = jobs.progress(logging.getLogger(), "half angles")
     step, largest = radians(neutral_step_deg), radians(largest_delta_deg)
     domains: list[dict[str, Any]] = []
@@ -43,8 +48,24 @@ def compute_domain_angle(
             }
         )
         report(len(domains), len(half_angles_deg))
-    axes = {"half_angle": half_angles_deg, "phi": phis_deg}
-    return dataset({"domains": domains, **axes}, TABLE, AXES)
+    order = np.argsort(half_angles_deg)
+    ends = np.array(half_angles_deg, dtype=float)[order]
+    known = np.array([domains[index]["neutral_delta"] for index in order])
+    at = np.linspace(ends[0], ends[-1], curve_points)
+    curves = [
+        _between(radians(phi), np.radians(at), np.interp(at, ends, deltas))
+        for phi, deltas in zip(phis_deg, known.T, strict=True)
+    ]
+    axes = {"half_angle": half_angles_deg, "phi": phis_deg, "curve_half_angle": at}
+    return dataset({"domains": domains, "curve_delta": np.array(curves).T, **axes}, TABLE, AXES)
+
+
+def _between(phi: float, half_angles: Array, guesses: Array) -> list[float]:
+    """Return the neutral delta (radians) at half angles, NaN where there is no guess."""
+    return [
+        guess if isnan(guess) else neutral_delta("cone", half_angle, phi, guess)
+        for half_angle, guess in zip(half_angles.tolist(), guesses.tolist(), strict=True)
+    ]
 
 
 def _neutral(curve: NeutralCurve, half_angle_deg: float, phi_deg: float) -> float:
@@ -79,6 +100,7 @@ TABLE = (
         "half_angle phi",
         "domains.neutral_delta",
     ),
+    angle("curve_delta", "the same at half angles in between", "curve_half_angle phi"),
     flag(
         "neutral_flag",
         "whether there is a neutral delta",
@@ -90,6 +112,7 @@ TABLE = (
 AXES = (
     in_degrees("half_angle", "half opening angle", "half_angle"),
     in_degrees("phi", "angle of wall friction", "phi"),
+    in_degrees("curve_half_angle", "half opening angle", "curve_half_angle"),
 )
 
 if __name__ == "__main__":

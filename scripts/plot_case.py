@@ -26,9 +26,14 @@ def plot_case(artifact: str, png: str, pdf: str, *, case: dict[str, Any]) -> Non
     if "sigma" in profiles:
         panels = parts[0].subplots(1, 3 if "u" in profiles else 2)
         drawing.draw_fields(panels, case["delta_deg"], profiles)
-    if "line" in data:
+    if "eigenvalue" in data:
         spectrum, numbers = parts[-1].subplots(1, 2, width_ratios=[1, 1.7])
-        drawing.draw_spectrum(spectrum, data.eigenvalue.to_numpy(), float(data.line))
+        modes = data.eigenvalue.to_numpy()
+        if "line" in data:
+            drawing.draw_spectrum(spectrum, modes, float(data.line))
+        else:
+            strips = data.strips.to_numpy() if "strips" in data else None
+            drawing.draw_coupled_spectrum(spectrum, modes, strips)
     else:
         numbers = parts[-1].subplots()
     _write_numbers(numbers, data)

@@ -20,8 +20,10 @@ def draw(artifact: str) -> Figure:
     for phi, look in zip(data.phi.values, plotting.series(data.sizes["phi"]), strict=True):
         curve = data.neutral_delta.sel(phi=phi)
         if np.isfinite(curve).any():
-            look |= {"markevery": 1}
-            right.plot(angles, curve, label=rf"$\phi$ = {phi:g}°", **look)
+            marks = {"linestyle": "none", "marker": look.pop("marker")}
+            label = rf"$\phi$ = {phi:g}°"
+            (line,) = right.plot(data.curve_half_angle, data.curve_delta.sel(phi=phi), **look)
+            right.plot(angles, curve, color=line.get_color(), label=label, **marks)
     right.set_ylabel(r"neutral $\delta$ (degrees)")
     bottom, top = right.get_ylim()
     right.set_ylim(bottom, top + 0.35 * (top - bottom))

@@ -92,17 +92,17 @@ def _text(path: str) -> str:
     return Path(path).read_text(encoding="utf-8")
 
 
-def figure(computed: str, error: str) -> str:
+def figure(computed: str, error: str, bound: str) -> str:
     """Return a computed value with the digits that its error allows, at most six.
 
-    Rounding, which differs from machine to machine, is a bound; an error that changes none of the
-    digits is left out.
+    Rounding, which differs from machine to machine, is told by the bound it is judged by; an error
+    that changes none of the digits is left out.
     """
     if computed == "none":
         return "none"
     value, uncertain = float(computed), float(error)
     if uncertain and abs(value) <= max(uncertain, _ROUNDING):
-        return upper_bound(max(abs(value), uncertain))
+        return upper_bound(max(abs(value), uncertain), 0.0 if bound == "none" else float(bound))
     if value == 0 or uncertain < 0.5 * 10.0 ** (floor(log10(abs(value))) - 5):
         return f"{value:.6g}"
     place = floor(log10(uncertain))

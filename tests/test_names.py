@@ -137,8 +137,10 @@ def dataclasses_of(package):
 @pytest.fixture(scope="module")
 def results():
     """One of each public dataclass, by its name, as it comes out of the numerics."""
+    from hopper.assessment.coupled import describe_coupled
     from hopper.assessment.neutral import assess_neutral
     from hopper.domain.borders import borders
+    from hopper.domain.coupled import coupled_borders, sweep_coupled
     from hopper.domain.growth import Hoppers, root
     from hopper.domain.neutral_points import StableDeltas, StableInterval
     from hopper.domain.stability_map import sweep_friction
@@ -158,6 +160,12 @@ def results():
     from hopper.stability.paper_frame import coefficients
     from hopper.stability.tilted import tilted_coefficients
     from hopper.stability.transient import modal_basis
+    from hopper.von_mises.high_frequency import high_frequency
+    from hopper.von_mises.linearisation import coefficients as coupled_coefficients
+    from hopper.von_mises.neutral import neutral_curve as coupled_neutral_curve
+    from hopper.von_mises.neutral import neutral_point
+    from hopper.von_mises.saint_venant import end_effects
+    from hopper.von_mises.verdict import judge
     from hopper_data.inputs import Case, Wall
     from hopper_data.tables import number, rows
 
@@ -175,6 +183,12 @@ def results():
     piece = first_piece(cone)
     soft = hopper.Hopper("cone", radians(35), radians(10), hopper.yield_condition("von-mises"))
     von_mises = hopper.solve_radial(soft, 0.1)
+    hard = hopper.Hopper("cone", radians(40), radians(10), soft.material)
+    judged = judge(hard, 0.1, resolve=False)
+    elliptic = hopper.solve_radial(
+        hopper.Hopper("cone", radians(30), radians(10), soft.material), 0.1
+    )
+    effects = end_effects(elliptic)
     found = [
         cone, cone.material, solution, solution.member, solution.member.grid,
         solution.member.closure, hopper.friction_limit(cone), CriticalPoint(0.1, -1.0, 3.0),
@@ -197,6 +211,12 @@ def results():
         branch_up_to(cone, 0.1), *stacked_starts([solution], ["symmetric"]),
         piece, piece.end, solution.member.grid.map, form.panels[0],
         *sign_changes(np.cos, [1.0, 2.0], 0.1),
+        describe_coupled(elliptic), judged, judged.type, judged.growth, judged.modes,
+        judged.growth and judged.growth.strips,
+        coupled_borders(radians(10), np.array([0.5])), sweep_coupled(hard, np.array([0.1])),
+        effects, effects.rays, high_frequency(elliptic),
+        *coupled_coefficients(von_mises, [von_mises.member.grid]),
+        neutral_point(radians(10), 0.1), coupled_neutral_curve(radians(10), 0.1, 0.05),
     ]  # fmt: skip
     assert all(found)
     return {type(item).__name__: item for item in found}
@@ -224,7 +244,7 @@ def test_angles_are_shown_in_degrees(results):
 WITH_DATASET = {
     "RadialSolution", "VelocityField", "LinearStability", "MeshSpectrum", "FilteredSpectrum",
     "Pseudospectrum", "Sweep", "NeutralCurve", "Borders", "Assessment", "RadialAssessment",
-    "StabilityAssessment",
+    "StabilityAssessment", "CoupledStability",
 }  # fmt: skip
 
 

@@ -202,7 +202,10 @@ ABSURD: dict[type, list[Any]] = {
     list: [[]],
 }
 # A call that comes to a result takes seconds there.
-SLOW = ("hopper.assessment", "hopper.domain.neutral", "hopper.domain.borders")
+SLOW = (
+    "hopper.assessment", "hopper.domain.neutral", "hopper.domain.borders",
+    "hopper.domain.coupled", "hopper.von_mises.neutral",
+)  # fmt: skip
 
 
 def is_complete(hint: Any) -> bool:

@@ -17,6 +17,10 @@ _FIXED = (
     "fig_4_5",
     "fig_4_5_map",
     "fig_domain_angle",
+    "fig_vm_types",
+    "fig_vm_spectra",
+    "fig_vm_decay",
+    "fig_models_stability",
 )
 SECTIONS = ("radial", "spectra", "transient", "pseudospectrum", "friction_curves")
 

@@ -85,9 +85,15 @@ def series(count: int) -> list[dict[str, Any]]:
     ]
 
 
+def parameters_of(data: xr.Dataset) -> dict[str, Any]:
+    """Return what an artifact was made with."""
+    found: dict[str, Any] = json.loads(data.attrs["parameters"])
+    return found
+
+
 def hopper_of(data: xr.Dataset) -> str:
     """Return the hopper that an artifact is of, from its parameters."""
-    made_with = json.loads(data.attrs["parameters"])
+    made_with = parameters_of(data)
     return (
         rf"{made_with['geometry']}, $\delta$ = {made_with['delta_deg']:g}°, "
         rf"$\vartheta_w$ = {made_with['half_angle_deg']:g}°"

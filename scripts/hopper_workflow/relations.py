@@ -66,9 +66,11 @@ def _drawing(config: Mapping[str, Any]) -> Iterator[Violation]:
 
 
 def _counts(config: Mapping[str, Any]) -> Iterator[Violation]:
-    chunks, rows = (config["stability_map"][key] for key in ("chunks", "delta_deg"))
-    if chunks > rows["points"]:
-        yield "stability_map.chunks", f"{chunks} is more than delta_deg has points"
+    for key, grid in (
+        ("stability_map", config["stability_map"]), ("von_mises.map", config["von_mises"]["map"])
+    ):  # fmt: skip
+        if grid["chunks"] > grid["delta_deg"]["points"]:
+            yield f"{key}.chunks", f"{grid['chunks']} is more than delta_deg has points"
     smooth = config["claims"]["linear"]["smooth"]
     if smooth["nodes"] <= 2 * smooth["modes"]:
         yield "claims.linear.smooth.nodes", f"{smooth['nodes']} must be more than twice the modes"
@@ -89,6 +91,8 @@ def _hoppers(config: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
     linear = config["claims"]["linear"]
     printed_at = {**config["spectra"][linear["spectrum"]], "mu": linear["printed_at"]["mu"]}
     yield "claims.linear.printed_at", printed_at
+    for name, case in config["fig_vm_spectra"]["hoppers"].items():
+        yield f"fig_vm_spectra.hoppers.{name}", {**case, "model": "von-mises"}
     for index, case in enumerate(config["cases"]):
         yield f"cases[{index}]", case
 

@@ -8,12 +8,15 @@ from math import degrees, isfinite, radians
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from hopper.arrays import Array, Complex
+from hopper.assessment.coupled import CoupledStability, assess_coupled, assess_coupled_neutral
 from hopper.assessment.limits import assess_limits, tangency_coefficient
 from hopper.assessment.neutral import Interval, NeutralPoint, assess_neutral
 from hopper.assessment.radial import assess_radial
 from hopper.assessment.stability import StabilityAssessment, assess_stability
-from hopper.errors import ConvergenceError, WallFrictionError
+from hopper.errors import ConvergenceError, NoRadialSolutionError, WallFrictionError
 from hopper.problem import as_geometry
 from hopper.quantity import Quantity
 from hopper.radial.solution import solve_radial
@@ -25,6 +28,11 @@ from hopper_data import assessments, tables
 from hopper_data.assessments import Part
 from hopper_data.inputs import Case, Wall
 from hopper_data.tables import Row
+
+_NO_TRANSIENT = (
+    "no transient growth: the collocation matrix grows in ways that the equations do not"
+)
+_Pairs = tuple[Complex, Array]  # eigenvalues and their errors
 
 
 def answer(options: Namespace) -> str:
@@ -73,6 +81,8 @@ def _radial(options: Namespace) -> str:
 
 def _stability(options: Namespace) -> str:
     case = _case(options)
+    if case.model == "von-mises":
+        return _coupled(options, case)
     found = _assessed_stability(case, options)
     _write(options, case, found)
     rows = tables.rows(found, assessments.STABILITY)
@@ -111,6 +121,67 @@ def _stability(options: Namespace) -> str:
     )
 
 
+def _coupled(options: Namespace, case: Case) -> str:
+    """Answer for von Mises cones; what only Mohr-Coulomb materials have is null."""
+    found = assess_coupled(case.hopper, case.wall.friction_angle)
+    if found.verdict == "no_radial_solution":
+        raise NoRadialSolutionError(found.judged.reason, found.judged.border or None)
+    if found.modes is None and (options.profile or options.plot):
+        raise ConvergenceError(f"there are no modes to write: {found.judged.reason}")
+    _write(options, case, found)
+    modes: _Pairs = np.empty(0, complex), np.empty(0)
+    notes: list[str] = []
+    if found.modes is not None:
+        modes = found.modes.eigenvalues[: options.modes], found.modes.errors[: options.modes]
+        if modes[0].size < options.modes:
+            notes = [f"only {modes[0].size} low modes are resolved"]
+    if options.json:
+        return _coupled_json(case, found, modes, [*options.doubts, *notes, _NO_TRANSIENT])
+    cells = [("type of the equations", str(found.type))]
+    cells += [
+        (f"eigenvalue {number}", text.complex_with_error(value, error))
+        for number, (value, error) in enumerate(zip(*modes, strict=True), start=1)
+    ]
+    if (growth := found.judged.growth) is not None:
+        for edges in growth.strips.intervals.tolist():
+            low, high = (text.rounded(edge, growth.strips.error_estimate) for edge in edges)
+            cells.append(("strip of high frequency", f"{low} to {high}"))
+    return _text(
+        f"Linear stability: {case}",
+        cells + text.number_cells(tables.rows(found, assessments.COUPLED)),
+        [*notes, sentences.coupled_sentence(found)],
+    )
+
+
+def _coupled_json(case: Case, found: CoupledStability, modes: _Pairs, notes: list[str]) -> str:
+    null = tables.rows({}, assessments.STABILITY + assessments.TANGENCY)
+    rows = tables.rows(found, assessments.COUPLED)
+    kind, growth = found.judged.type, found.judged.growth
+    return _json(
+        case.echoed(),
+        [*null, *rows],
+        type=found.type,
+        verdict=found.verdict,
+        reason=found.judged.reason,
+        eigenvalues=_pairs(modes),
+        asymmetric_eigenvalues=None,
+        flow_rate_mode=0,
+        strips=None if growth is None else growth.strips.intervals.tolist(),
+        governed_by=found.governed_by,
+        parity=None,
+        disturbances="symmetric",
+        slanted=found.judged.slanted,
+        sonic_deg=[degrees(theta) for theta in kind.sonic] if kind else None,
+        ring_spacing=kind.ring_spacing if kind else None,
+        error_estimate=max((row.error for row in rows if row.error is not None), default=None),
+        notes=notes,
+        errors={
+            "eigenvalues": modes[1].tolist(),
+            "strips": None if growth is None else growth.strips.error_estimate,
+        },
+    )
+
+
 def _assessed_stability(case: Case, options: Namespace) -> StabilityAssessment:
     try:
         solution = solve_radial(case.hopper, case.wall.friction_angle)
@@ -123,16 +194,21 @@ def _assessed_stability(case: Case, options: Namespace) -> StabilityAssessment:
 _JSON: dict[Parity, str] = {"symmetric": "eigenvalues", "asymmetric": "asymmetric_eigenvalues"}
 
 
-def _pairs(modes: tuple[Complex, Array] | None) -> list[list[float]] | None:
+def _pairs(modes: _Pairs | None) -> list[list[float]] | None:
     return modes and [[mode.real, mode.imag] for mode in modes[0].tolist()]
 
 
 def _neutral(options: Namespace) -> str:
     geometry, half_angle = as_geometry(options.geometry), radians(options.half_angle)
     wall = Wall.of(options.mu, options.phi)
-    found = assess_neutral(geometry, half_angle, wall.friction_angle, options.disturbances)
+    if options.model == "von-mises":
+        found = assess_coupled_neutral(half_angle, wall.friction_angle)
+    else:
+        found = assess_neutral(geometry, half_angle, wall.friction_angle, options.disturbances)
     rows = tables.rows(found, assessments.NEUTRAL)
-    inputs = {"geometry": geometry, "half_angle_deg": options.half_angle, **asdict(wall)}
+    kind = f"{geometry}, {options.model}"
+    given = {"geometry": geometry, "model": options.model, "half_angle_deg": options.half_angle}
+    inputs = given | asdict(wall)
     if options.json:
         first = found.points[0] if found.points else None
         return _json(
@@ -146,7 +222,7 @@ def _neutral(options: Namespace) -> str:
             notes=options.doubts,
         )
     return _text(
-        f"Neutral stability: {geometry}, half angle {options.half_angle:g} deg, {wall}",
+        f"Neutral stability: {kind}, half angle {options.half_angle:g} deg, {wall}",
         text.neutral_cells(found),
         [sentences.neutral_sentence(geometry, found)],
     )

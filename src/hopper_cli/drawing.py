@@ -63,11 +63,25 @@ def draw_fields(axes: Sequence[Axes], delta_deg: float, fields: Mapping[str, Arr
 
 def draw_spectrum(axis: Axes, upper: NDArray[np.complex128], line: float) -> None:
     """Draw modes, given by those with Im >= 0, and the asymptotic line."""
+    _draw_modes(axis, upper)
+    axis.axvline(line, color="black", linewidth=0.8, linestyle="--")
+    axis.set_title(rf"modes, and the line $\Lambda$ = {typeset(f'{line:.4g}')} (dashed)")
+
+
+def draw_coupled_spectrum(
+    axis: Axes, upper: NDArray[np.complex128], strips: Array | None = None
+) -> None:
+    """Draw modes of a von Mises cone, given by those with Im >= 0, and strips, shape (k, 2)."""
+    _draw_modes(axis, upper)
+    for low, high in () if strips is None else strips:
+        axis.axvspan(low, high, color="0.75", linewidth=1, zorder=0)
+    axis.set_title("modes" if strips is None else "modes, and strips of high frequency (grey)")
+
+
+def _draw_modes(axis: Axes, upper: NDArray[np.complex128]) -> None:
     modes = np.concatenate([upper, upper.conj()])
     axis.axvline(0, color="0.5", linewidth=0.6)
-    axis.axvline(line, color="black", linewidth=0.8, linestyle="--")
     axis.plot(modes.real, modes.imag, "o", markersize=2.2, color="C0")
     axis.set_xlabel(r"Re $\lambda$")
     axis.set_ylabel(r"Im $\lambda$")
-    axis.set_title(rf"modes, and the line $\Lambda$ = {typeset(f'{line:.4g}')} (dashed)")
     axis.margins(x=0.12)

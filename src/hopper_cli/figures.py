@@ -8,7 +8,9 @@ os.environ["MPLBACKEND"] = "Agg"  # with one that it does not know Matplotlib do
 from matplotlib import style
 from matplotlib.figure import Figure
 
+from hopper.assessment.coupled import CoupledStability
 from hopper.assessment.radial import RadialAssessment
+from hopper.assessment.stability import StabilityAssessment
 from hopper_cli import drawing
 from hopper_data import assessments
 from hopper_data.assessments import Part
@@ -32,8 +34,7 @@ def write(path: Path, case: Case, found: Part) -> None:
                 verdict += r", velocity not known: $\psi$ reaches or nearly reaches $\pi/4$"
         else:
             figure, verdict = Figure(figsize=(7.1, 4.0)), found.verdict.replace("_", " ")
-            line = found.result.line.abscissa
-            drawing.draw_spectrum(figure.subplots(), found.spectrum.eigenvalues, line)
+            _spectrum(figure, found)
         words = drawing.title(
             verdict,
             geometry=case.geometry,
@@ -45,6 +46,15 @@ def write(path: Path, case: Case, found: Part) -> None:
         figure.suptitle(words, fontsize=8)
         with replacing(path) as temporary:
             figure.savefig(temporary, metadata=_METADATA[path.suffix.lower()])
+
+
+def _spectrum(figure: Figure, found: StabilityAssessment | CoupledStability) -> None:
+    axis = figure.subplots()
+    if isinstance(found, CoupledStability):
+        if found.modes is not None:
+            drawing.draw_coupled_spectrum(axis, found.modes.eigenvalues, found.strips)
+    else:
+        drawing.draw_spectrum(axis, found.spectrum.eigenvalues, found.result.line.abscissa)
 
 
 def _fields(case: Case, found: RadialAssessment) -> Figure:

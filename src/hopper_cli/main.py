@@ -103,7 +103,7 @@ def _parser() -> argparse.ArgumentParser:
         commands, "radial", "the radial solution: stresses, psi, velocity, flow factor, limits"
     )
     stability = _command(
-        commands, "stability", "linear stability: low eigenvalues, asymptotic line, verdict"
+        commands, "stability", "linear stability: low eigenvalues, high frequencies, verdict"
     )
     for command, profile in ((radial, "fields over the polar angle"), (stability, "eigenvalues")):
         _add_hopper(command)
@@ -118,7 +118,7 @@ def _parser() -> argparse.ArgumentParser:
     neutral = _command(
         commands, "neutral", "the internal frictions at which stability changes, and what is stable"
     )
-    _add_geometry(neutral)
+    _add_geometry_and_model(neutral)
     _add_half_angle_and_wall(neutral)
     for command in (stability, neutral):
         command.add_argument(
@@ -131,13 +131,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _add_hopper(command: argparse.ArgumentParser) -> None:
-    _add_geometry(command)
-    command.add_argument(
-        "--model",
-        choices=["mohr-coulomb", "von-mises"],
-        default="mohr-coulomb",
-        help="yield condition, default %(default)s; von-mises: cones, radial fields only",
-    )
+    _add_geometry_and_model(command)
     command.add_argument(
         "--delta", type=_angle, required=True, metavar="DEG", help="angle of internal friction"
     )
@@ -173,8 +167,14 @@ def _command(
     return command
 
 
-def _add_geometry(command: argparse.ArgumentParser) -> None:
+def _add_geometry_and_model(command: argparse.ArgumentParser) -> None:
     command.add_argument("--geometry", choices=["wedge", "cone"], required=True)
+    command.add_argument(
+        "--model",
+        choices=["mohr-coulomb", "von-mises"],
+        default="mohr-coulomb",
+        help="yield condition, default %(default)s; von-mises: cones only",
+    )
 
 
 def _add_half_angle_and_wall(command: argparse.ArgumentParser) -> None:
@@ -232,18 +232,13 @@ def _check(options: argparse.Namespace) -> None:
             "argument --disturbances: asymmetric disturbances are singular at the apex of a cone: "
             "use symmetric or --geometry wedge"
         )
-    if options.command == "neutral":
-        return
     if options.model == "von-mises" and options.geometry == "wedge":
         raise UsageError(
             "argument --model: von-mises is formulated for cones only: use --geometry cone or "
             "--model mohr-coulomb"
         )
-    if options.model == "von-mises" and options.command == "stability":
-        raise UsageError(
-            "argument --model: stability is formulated for mohr-coulomb only: use --model "
-            "mohr-coulomb"
-        )
+    if options.command == "neutral":
+        return
     for option, path, suffixes in (
         ("--profile", options.profile, (".csv", ".nc")),
         ("--plot", options.plot, (".png", ".pdf", ".svg")),

@@ -2,6 +2,7 @@
 
 from math import degrees
 
+from hopper.assessment.coupled import CoupledStability
 from hopper.assessment.neutral import NeutralAssessment
 from hopper.assessment.radial import RadialAssessment
 from hopper.assessment.stability import StabilityAssessment
@@ -45,6 +46,33 @@ def stability_sentence(geometry: str, found: StabilityAssessment) -> str:
         "unstable": f"Unstable: {known} can grow down the hopper, governed by {cause}.",
     }
     return words[found.verdict]
+
+
+def coupled_sentence(found: CoupledStability) -> str:
+    """Return the verdict on a von Mises cone in words."""
+    known = "axisymmetric disturbances without swirl"
+    sentence = f"No verdict: {found.judged.reason}."
+    if found.decay_down is not None and found.decay_up is not None:
+        down, up = f"{found.decay_down.value:.4g}", f"{found.decay_up.value:.4g}"
+        sentence = (
+            f"Elliptic, so that nothing can be marched: each end carries half of the conditions. "
+            f"A disturbance at the top dies out down the hopper as r^{down}, one at the outlet up "
+            f"the hopper as r^-{up}; the flow rate alone is kept, and set by one end."
+        )
+    elif found.verdict in ("stable", "unstable", "neutral"):
+        cause = "a mode" if found.governed_by == "mode" else "the upper strip of high frequency"
+        words = {
+            "neutral": f"Neutral to {known}: the abscissa is zero within its error.",
+            "stable": f"Stable: {known} decay down the hopper, governed by {cause}; that no other "
+            "mode grows is tested, not proved.",
+            "unstable": f"Unstable: {known} can grow down the hopper, governed by {cause}.",
+        }
+        if found.abscissa is None:
+            words["unstable"] = f"Unstable: {known} can grow, {found.judged.reason}."
+        sentence = words[found.verdict]
+    if found.judged.slanted:
+        sentence += " Data belong on a slanted surface: a characteristic lies in r = const."
+    return sentence
 
 
 def neutral_sentence(geometry: str, found: NeutralAssessment) -> str:

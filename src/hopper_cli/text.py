@@ -12,6 +12,7 @@ if TYPE_CHECKING:  # the page of a case needs no numerics
     from hopper.domain.neutral_points import IntervalEnd
     from hopper.stability.collocation import Parity
     from hopper.stability.modes import Governor
+    from hopper.von_mises.growth import Governor as CoupledGovernor
 
 _DIGITS = 10
 _UNITS = {"degree": "deg", "1": ""}
@@ -84,8 +85,10 @@ def neutral_cells(found: "NeutralAssessment") -> list[tuple[str, str]]:
     return points + intervals or [("stable delta", "none")]
 
 
-def described(governor: "Governor", parity: "Parity | None") -> str:
+def described(governor: "Governor | CoupledGovernor", parity: "Parity | None") -> str:
     """Return what governs in words."""
+    if governor == "strip":
+        return "the upper strip of high frequency"
     return "the asymptotic line" if parity is None else f"{_ARTICLE[parity]} {governor}"
 
 
@@ -99,6 +102,7 @@ ENDS: "dict[IntervalEnd, str]" = {
     "stress_not_positive": "no positive stress beyond",
     "not_converged": "not resolved beyond",
     "steepest_looked_at": "not looked at beyond",
+    "tension": "tensile on the axis beyond",
 }
 
 

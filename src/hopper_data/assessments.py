@@ -2,15 +2,16 @@
 
 from typing import Any, get_args
 
+from hopper.assessment.coupled import CoupledStability
 from hopper.assessment.radial import RadialAssessment
 from hopper.assessment.stability import StabilityAssessment
 from hopper.assessment.summary import OUTCOMES, Assessment
 from hopper.radial.friction_limit import End
 from hopper_data.radial import STRESS, THETA, angles
-from hopper_data.stability import GOVERNED_BY, PARITY, eigenvalues
+from hopper_data.stability import COUPLED_FLAGS, GOVERNED_BY, PARITY, eigenvalues
 from hopper_data.tables import Table, angle, flag, number, within
 
-Part = RadialAssessment | StabilityAssessment
+Part = RadialAssessment | StabilityAssessment | CoupledStability
 
 RADIAL: Table = (
     number("sigma_axis", "average stress on the axis", scale="rho g r"),
@@ -49,6 +50,11 @@ STABILITY: Table = (
     number("kappa", "condition of the modes, tilted time, L2", source="transient.condition"),
     number("transient_modes", "number of symmetric modes followed", source="transient.modes"),
 )
+COUPLED: Table = (
+    number("abscissa", "supremum of Re(lambda), without the flow rate"),
+    number("decay_down", "least exponent of r, disturbances of the top"),
+    number("decay_up", "least exponent of 1/r, disturbances of the outlet"),
+)
 SPECTRUM: Table = within("spectrum", eigenvalues("symmetric"))
 NEUTRAL: Table = (
     angle("delta_neutral_deg", "smallest neutral angle of internal friction", source="delta"),
@@ -60,11 +66,19 @@ STABILITY_WHOLE: Table = (
     *within("result", (GOVERNED_BY, PARITY)),
     *STABILITY,
 )
+COUPLED_MODES: Table = within("modes", eigenvalues("coupled"))
+COUPLED_WHOLE: Table = (
+    *COUPLED_MODES,
+    *COUPLED_FLAGS,
+    number("strips", "edges of the strips of Re(lambda) of high frequency", "strip edge"),
+    *COUPLED,
+)
 WHOLE: Table = (
     flag("outcome", "verdict of stability, or why there is none", OUTCOMES),
     *within("profiles", PROFILES),
     *within("radial", RADIAL),
     *within("stability", STABILITY_WHOLE),
+    *within("coupled", COUPLED_WHOLE),
     flag(
         "limit_end",
         "what ends the solutions at mu_limit",
@@ -88,7 +102,7 @@ def arrays(found: Part) -> tuple[Any, Table]:
     """Return the arrays of a part of an assessment and the table that describes them."""
     if isinstance(found, RadialAssessment):
         return profiles(found), PROFILES
-    return found, SPECTRUM
+    return found, COUPLED_MODES if isinstance(found, CoupledStability) else SPECTRUM
 
 
 def described(found: Part | Assessment) -> tuple[Any, Table]:
@@ -100,6 +114,8 @@ def described(found: Part | Assessment) -> tuple[Any, Table]:
         )
     if isinstance(found, StabilityAssessment):
         return found, STABILITY_WHOLE
+    if isinstance(found, CoupledStability):
+        return found, COUPLED_WHOLE
     return {**vars(found), "profiles": found.radial and profiles(found.radial)}, WHOLE
 
 

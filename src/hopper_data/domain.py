@@ -2,6 +2,7 @@
 
 from typing import get_args
 
+from hopper.domain.coupled import COUPLED_REGIONS
 from hopper.domain.neutral_curve import CURVE_ENDS
 from hopper.domain.stability_map import GOVERNED_BY, PARITY, REGIONS
 from hopper.radial.friction_limit import End
@@ -54,3 +55,28 @@ BORDERS: Table = (
         "positive_stress",
     ),
 )
+COUPLED_SWEEP: Table = (
+    flag("region", "verdict, or why there is none", COUPLED_REGIONS, "phi"),
+    flag("slanted", "data belong on a slanted surface", ("no", "yes"), "phi"),
+    number("abscissa", "supremum of Re(lambda), without the flow rate", "phi"),
+    number("decay_down", "least exponent of r, disturbances of the top", "phi"),
+    number("decay_up", "least exponent of 1/r, disturbances of the outlet", "phi"),
+    number("error", "error estimate of abscissa or exponents", "phi", "error_estimate"),
+    angle("psi_max", "largest psi on the radial solution's nodes", "phi"),
+)
+COUPLED_BORDERS: Table = (
+    angle("limit_phi", "wall friction at which psi reaches pi/4", "delta", "limit"),
+    angle("sonic_phi", "wall friction beyond which a flow is not elliptic", "delta", "sonic"),
+    angle(
+        "tangency_phi", "wall friction beyond which data belong on slanted surfaces", "delta",
+        "tangency",
+    ),
+)  # fmt: skip
+COUPLED_NEUTRAL: Table = (
+    angle("neutral_delta", "internal friction of neutral stability", "point", "delta"),
+    angle("neutral_phi", "wall friction of neutral stability", "point", "friction_angle"),
+    angle("neutral_error", "error estimate of neutral_delta", "point", "error_estimate"),
+    number("neutral_imag", "Im(lambda) of the neutral mode, NaN of a strip", "point", "frequency"),
+    flag("neutral_settled", "whether no mode is expected above 0", ("no", "yes"), "point",
+         "settled"),
+)  # fmt: skip

@@ -5,8 +5,8 @@ from typing import Any
 
 import xarray as xr
 
+from hopper.assessment.coupled import CoupledStability
 from hopper.assessment.radial import RadialAssessment
-from hopper.assessment.stability import StabilityAssessment
 from hopper.assessment.summary import Assessment
 from hopper.domain.borders import Borders
 from hopper.domain.neutral_curve import NeutralCurve
@@ -60,7 +60,7 @@ def to_dataset(result: Any) -> xr.Dataset:
 
 def stored_form(result: Any) -> xr.Dataset:
     """Return the same as CF files hold it: flags as codes, complex numbers in two parts."""
-    if isinstance(result, Assessment | RadialAssessment | StabilityAssessment):
+    if isinstance(result, Assessment | assessments.Part):
         attributes = assessments.comment(result) if isinstance(result, Assessment) else None
         return dataset(*assessments.described(result), attributes=attributes)
     if isinstance(result, RadialSolution | VelocityField):
@@ -84,10 +84,11 @@ def write_part(path: Path, case: Case, found: assessments.Part) -> None:
         If the file cannot be written; no part of it stays.
     """
     is_radial = isinstance(found, RadialAssessment)
+    linear = "(2.8)-(2.15), linearised" if isinstance(found, CoupledStability) else "(4.1), (4.2)"
     cf.write(
         stored_form(found),
         path,
         title=f"{'Radial solution' if is_radial else 'Linear stability'}: {case}",
-        equations="(2.8)-(2.15), (3.1)-(3.5)" if is_radial else "(4.1), (4.2)",
+        equations="(2.8)-(2.15), (3.1)-(3.5)" if is_radial else linear,
         parameters=case.echoed(),
     )

@@ -1,12 +1,14 @@
 """Tables of spectra and of what decides stability."""
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, get_args
 
 from hopper.stability.collocation import PARITIES
 from hopper.stability.convergence_filter import REASONS
 from hopper.stability.mesh_spectrum import HALVES, MeshSpectrum
 from hopper.stability.modes import GOVERNORS
+from hopper.von_mises.characteristics import Kind
+from hopper.von_mises.growth import Governor
 from hopper_data.tables import Table, complex_number, flag, number, within
 
 if TYPE_CHECKING:  # a plain answer needs no xarray, which takes a second to import
@@ -17,6 +19,11 @@ HALF = flag("half", "parity: physical is sigma1 even and psi1 odd", HALVES, "mod
 
 GOVERNED_BY = flag("governed_by", "what the abscissa is due to", GOVERNORS)
 PARITY = flag("parity", "parity of the mode that governs", PARITIES)
+COUPLED_FLAGS: Table = (
+    flag("type", "type of the equations", get_args(Kind)),
+    flag("governed_by", "what the abscissa is due to", get_args(Governor)),
+    flag("slanted", "data belong on a slanted surface", _NO_YES, source="judged.slanted"),
+)
 
 
 def eigenvalues(which: str, prefix: str = "") -> Table:

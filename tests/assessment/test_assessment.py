@@ -503,14 +503,19 @@ def test_transient_growth_by_matrix_exponentials(hopper):
         (STEEL, 0.47, "no_radial_solution", "the largest friction that has one"),
         (make("cone", 40, 60), 0.2, "no_radial_solution", "even for a smooth wall"),
         (make("cone", 8, 10), 0.0, "non_positive_stress", "is not positive"),
-        (make("cone", 30, 30, VON_MISES), 0.2, "not_formulated", "Mohr-Coulomb materials only"),
+        (make("cone", 25, 30, VON_MISES), 0.2, "saint_venant", ""),
+        (make("cone", 40, 30, VON_MISES), 0.2, "unstable", ""),
+        (make("cone", 30, 30, VON_MISES), 0.3, "mixed", "elliptic core and hyperbolic ring"),
+        (make("cone", 62, 10, VON_MISES), 0.1, "tension", "T_rr <= 0 on the axis"),
     ],
 )
 def test_outcomes(hopper, mu, outcome, reason):
     found = assess(hopper, atan(mu))
     assert found.outcome == outcome
     assert reason in found.reason
-    assert bool(found.reason) == (found.stability is None)
+    coupled = found.coupled
+    answered = found.stability or (coupled and (coupled.abscissa or coupled.decay_down))
+    assert bool(found.reason) == (not answered)
     assert (found.radial is None) == (outcome in ("no_radial_solution", "non_positive_stress"))
 
 

@@ -188,6 +188,115 @@ def test_no_neutral_point_is_an_answer(answer, run):
     )
 
 
+SOFT = "--geometry cone --model von-mises"
+COUPLED_KEYS = {
+    "type", "verdict", "eigenvalues", "flow_rate_mode", "strips", "abscissa", "governed_by",
+    "decay_down", "decay_up", "slanted", "error_estimate",
+}  # fmt: skip
+MOHR_COULOMB_ONLY = {
+    "line", "kappa", "transient_growth", "transient_amplification", "transient_modes", "parity",
+    "abscissa_symmetric", "abscissa_asymmetric", "asymmetric_eigenvalues", "mu_tangency",
+}  # fmt: skip
+
+
+def test_stability_of_an_elliptic_flow(answer, run):
+    found = answer(f"stability {SOFT} --delta 25 --half-angle 10 --mu 0.1")
+    assert set(found) >= COUPLED_KEYS
+    assert {key for key, value in found.items() if value is None} == MOHR_COULOMB_ONLY | {
+        "abscissa", "strips", "governed_by", "ring_spacing"
+    }  # fmt: skip
+    assert (found["type"], found["verdict"], found["slanted"]) == (
+        "elliptic",
+        "saint_venant",
+        False,
+    )
+    assert found["decay_down"] == pytest.approx(4.553178134, abs=1e-8)
+    assert found["decay_up"] == pytest.approx(8.267302196, abs=1e-8)
+    assert found["flow_rate_mode"] == 0
+    modes = np.array(found["eigenvalues"]) @ [1, 1j]
+    assert modes.size == len(found["errors"]["eigenvalues"]) == 6
+    assert np.all(np.diff(np.abs(modes)) > 0)
+    assert -found["decay_down"] == modes[0]
+    _, out, err = run(f"stability {SOFT} --delta 25 --half-angle 10 --mu 0.1")
+    assert err == ""
+    assert "dies out down the hopper as r^4.553, one at the outlet up the hopper as r^-8.267" in out
+
+
+def test_stability_of_a_hyperbolic_flow(answer, run):
+    found = answer(f"stability {SOFT} --delta 50 --half-angle 10 --mu 0.3")
+    assert (found["type"], found["verdict"], found["slanted"]) == ("hyperbolic", "stable", True)
+    assert found["abscissa"] == pytest.approx(-0.205312783, abs=1e-8)
+    assert found["governed_by"] == "mode"
+    assert found["strips"][-1] == pytest.approx([-0.2918375, -0.2902711], abs=1e-6)
+    assert found["decay_down"] is found["decay_up"] is None
+    assert 0 < found["error_estimate"] < 0.2
+    _, out, _ = run(f"stability {SOFT} --delta 50 --half-angle 10 --mu 0.3")
+    assert out.splitlines()[-1] == (
+        "Stable: axisymmetric disturbances without swirl decay down the hopper, governed by a "
+        "mode; that no other mode grows is tested, not proved. Data belong on a slanted surface: "
+        "a characteristic lies in r = const."
+    )
+    assert answer(f"stability {SOFT} --delta 40 --half-angle 30 --mu 0.2")["verdict"] == "unstable"
+
+
+def test_stability_of_other_von_mises_flows(answer, run):
+    mixed = answer(f"stability {SOFT} --delta 30 --half-angle 30 --mu 0.3")
+    assert (mixed["type"], mixed["verdict"]) == ("mixed", "mixed")
+    assert mixed["sonic_deg"] == [pytest.approx(10.084, abs=1e-3)]
+    assert mixed["ring_spacing"] == pytest.approx(15.65, abs=5e-3)
+    assert mixed["eigenvalues"][0] == pytest.approx([1.200984925, 5.286138402], abs=1e-8)
+    assert mixed["abscissa"] is mixed["decay_down"] is mixed["error_estimate"] is None
+    tension = answer(f"stability {SOFT} --delta 62 --half-angle 10 --mu 0.1")
+    assert (tension["verdict"], tension["eigenvalues"]) == ("tension", [])
+    assert "T_rr <= 0 on the axis" in tension["reason"]
+    # Nothing bounds how fast modes that are not resolved grow.
+    case = f"stability {SOFT} --delta 35.52 --half-angle 10 --phi 24"
+    open_above = answer(case)
+    assert open_above["verdict"] == "unstable"
+    assert open_above["abscissa"] is open_above["governed_by"] is None
+    assert "and modes not resolved may exceed it." in run(case)[1]
+    unknown = answer(f"stability {SOFT} --delta 39.435 --half-angle 10 --phi 31.5")
+    assert (unknown["verdict"], unknown["abscissa"]) == ("not_converged", None)
+    assert run(case.replace("35.52", "39.435").replace("24", "31.5"))[0] == 0
+    code, out, err = run(f"stability {SOFT} --delta 50 --half-angle 30 --phi 27.5 --json")
+    assert (code, json.loads(out)["error"]["kind"]) == (1, "NoRadialSolutionError")
+    assert "psi reaches 45 deg at phi = 26.8994 deg" in err
+
+
+def test_neutral_of_von_mises_cones(answer):
+    # (38 deg, 3.73529625 deg): sup Re(lambda) = 0 by shooting.
+    found = answer("neutral --geometry cone --model von-mises --half-angle 10 --phi 3.73529625")
+    (point,), (interval,) = found["neutral_points"], found["stable_intervals_deg"]
+    assert point["delta_deg"] == found["delta_neutral_deg"] == interval["lower"]
+    assert point["delta_deg"] == pytest.approx(38, abs=1e-6)
+    assert (point["governed_by"], point["parity"]) == ("mode", "symmetric")
+    assert (interval["lower_end"], interval["upper_end"]) == ("neutral", "not_converged")
+    assert 59 < interval["upper"] < 60
+    none = answer("neutral --geometry cone --model von-mises --half-angle 30 --phi 5")
+    assert none["neutral_points"] == none["stable_intervals_deg"] == []
+
+
+@pytest.mark.parametrize("suffix", ["csv", "nc"])
+def test_files_of_a_von_mises_spectrum(run, tmp_path, suffix):
+    case = f"stability {SOFT} --delta 40 --half-angle 10 --mu 0.1"
+    code, _, err = run(f"{case} --profile {tmp_path}/a.{suffix} --plot {tmp_path}/a.png")
+    assert (code, err) == (0, "")
+    assert (tmp_path / "a.png").stat().st_size > 5000
+    if suffix == "nc":
+        data = xr.open_dataset(tmp_path / "a.nc")
+        assert float(data.eigenvalue_real[1]) == pytest.approx(-0.01210634, abs=1e-8)
+        assert data.strips.shape == (2, 2)
+    else:
+        header, first, *_ = csv.reader((tmp_path / "a.csv").open())
+        assert header[0] == "eigenvalue_real [1]"
+        assert float(first[0]) == pytest.approx(-13.594972760577, abs=1e-8)
+    code, _, err = run(
+        f"stability {SOFT} --delta 62 --half-angle 10 --mu 0.1 --plot {tmp_path}/b.png"
+    )
+    assert code == 1
+    assert "there are no modes to write: delta = 62 deg is 60 deg or more" in err
+
+
 @pytest.mark.parametrize(("phi", "delta"), [(0, 33.6739), (10, 26.1404)])
 def test_neutral(answer, phi, delta):
     found = answer(f"neutral --geometry cone --half-angle 10 --phi {phi}")
@@ -313,8 +422,11 @@ USAGE = [
     (f"stability {CONE} --mu 0.7", "argument --mu: wall friction angle phi = 34.992 deg has no"),
     ("radial --geometry wedge --model von-mises --delta 30 --half-angle 30 --mu 0",
      "argument --model: von-mises is formulated for cones only: use --geometry cone"),
-    (f"stability {CONE} --model von-mises --mu 0",
-     "argument --model: stability is formulated for mohr-coulomb only: use --model mohr-coulomb"),
+    ("stability --geometry wedge --model von-mises --delta 30 --half-angle 30 --mu 0",
+     "argument --model: von-mises is formulated for cones only: use --geometry cone"),
+    ("neutral --geometry wedge --model von-mises --half-angle 30 --mu 0",
+     "argument --model: von-mises is formulated for cones only: use --geometry cone"),
+    (f"stability {CONE} --model von-mises --mu 0.7", "argument --mu: wall friction angle phi ="),
     ("neutral --geometry cone --half-angle 10 --delta 30 --mu 0", "unrecognized arguments"),
     (f"stability {CONE} --mu 0 --disturbances any",
      "argument --disturbances: asymmetric disturbances are singular at the apex of a cone"),

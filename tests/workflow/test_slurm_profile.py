@@ -29,7 +29,7 @@ def test_every_rule_has_a_request_and_no_other_has():
     blocks = dict(re.findall(block, RULES, re.MULTILINE | re.DOTALL))
     by_size = {name for name, block in blocks.items() if f'asks("{name}"' in block}
     fixed = set(yaml.safe_load(measured.PROFILE.read_text(encoding="utf-8"))["set-resources"])
-    assert by_size == set(measured.OF_MAPS)
+    assert by_size == set(measured.OF_GRIDS)
     assert fixed.isdisjoint(by_size)
     assert fixed | by_size == set(COSTS) == set(blocks)
 

@@ -86,7 +86,7 @@ rule judge_claims:
         "../../envs/hopper.yaml"
     threads: 1
     resources:
-        **asks("judge_claims", map_points()),
+        **asks("judge_claims", map_points(MAP)),
     message:
         "judge_claims: The verdict on every claim of the paper"
     script:

@@ -11,6 +11,7 @@ for line in configuration.bring_up_to_date(config, SCHEMA):
 
 FIGURES = [drawing.figure for drawing in entries.drawings(config)]
 MAP = config["stability_map"]
+VON_MISES = config["von_mises"]
 FORMULATIONS = ["paper", "physical"]
 COSTS = requests.read_costs(ROOT / "resources/benchmarks.tsv")
 
@@ -38,8 +39,13 @@ wildcard_constraints:
         )
     ),
     formulation=targets.words(FORMULATIONS),
-    angle=targets.words(dict.fromkeys([*map(str, MAP["half_angles_deg"]), *LEDGER_ANGLES])),
-    chunk=targets.words(range(config["stability_map"]["chunks"])),
+    angle=targets.words(
+        dict.fromkeys(
+            [*map(str, MAP["half_angles_deg"] + VON_MISES["half_angles_deg"]), *LEDGER_ANGLES]
+        )
+    ),
+    chunk=targets.words(range(max(MAP["chunks"], VON_MISES["map"]["chunks"]))),
+    cone=targets.words(config["fig_vm_spectra"]["hoppers"]),
     case=targets.words(case["name"] for case in config["cases"]),
 
 

@@ -68,7 +68,7 @@ rule compute_map_chunk:
         "../../envs/hopper.yaml"
     threads: 1
     resources:
-        **asks("compute_map_chunk", map_points(MAP["chunks"])),
+        **asks("compute_map_chunk", map_points(MAP, MAP["chunks"])),
     params:
         geometry="{geometry}",
         half_angle_deg=lambda wildcards: float(wildcards.angle),
@@ -98,7 +98,7 @@ rule merge_map:
         "../../envs/hopper.yaml"
     threads: 1
     resources:
-        **asks("merge_map", map_points()),
+        **asks("merge_map", map_points(MAP)),
     params:
         geometry="{geometry}",
         half_angle_deg=lambda wildcards: float(wildcards.angle),
@@ -271,7 +271,7 @@ rule plot_fig_4_5_map:
         "../../envs/hopper.yaml"
     threads: 1
     resources:
-        **asks("plot_fig_4_5_map", map_points()),
+        **asks("plot_fig_4_5_map", map_points(MAP)),
     params:
         panels=[f"{case.replace('_', ', half angle ')}°" for case in CASES],
         color_range=config["fig_4_5_map"]["color_range"],

@@ -87,9 +87,9 @@ def labels_of_case(wildcards):
         "case": case["name"],
         "verdict": cases.verdict(f"results/cases/{case['name']}.nc"),
         "hopper": case["geometry"],
-        "δ": f"{case['delta_deg']:g}°",
+        "delta": f"{case['delta_deg']:g}°",
         "half angle": f"{case['half_angle_deg']:g}°",
-        "μ": f"{case['mu']:g}",
+        "mu": f"{case['mu']:g}",
     }
 
 
@@ -99,7 +99,12 @@ def mesh_of(spectrum):
     return {name: case[name] for name in ["nodes", "coarse_nodes", "tolerance"]}
 
 
-def map_points(chunks=None):
-    """Points of a stability map, or of the largest of its chunks."""
-    rows, columns = (config["stability_map"][axis]["points"] for axis in ["delta_deg", "phi_deg"])
+def von_mises_cone(key):
+    """A parameter of a cone of `fig_vm_spectra`."""
+    return lambda wildcards: config["fig_vm_spectra"]["hoppers"][wildcards.cone][key]
+
+
+def map_points(grid, chunks=None):
+    """Points of a map, or of the largest of its chunks."""
+    rows, columns = (grid[axis]["points"] for axis in ["delta_deg", "phi_deg"])
     return rows * columns if chunks is None else math.ceil(rows / chunks) * columns

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import ceil, log10
 from typing import Literal, get_args
 
 Verdict = Literal["holds", "holds with limits", "does not hold", "cannot be decided"]
@@ -48,11 +47,12 @@ def rounding(value: float) -> float:
     return 1e-14 * max(1.0, abs(value))
 
 
-def upper_bound(value: float) -> str:
-    """Return ``< 1e-13`` for what is rounding: a power of ten at least three times the value."""
-    if value == 0:
-        return "0"
-    return f"< 1e{ceil(log10(3 * value))}"
+def upper_bound(value: float, bound: float) -> str:
+    """Return ``< 1e-10`` for what lies below the bound it is judged by, as rounding should.
+
+    Its size differs from machine to machine, so that a bound of its own would.
+    """
+    return f"< {bound:g}" if value < bound else f"{value:.1e}"
 
 
 def rounds(printed: Printed, computed: float, error: float, remark: str) -> Finding:

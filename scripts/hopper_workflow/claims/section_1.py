@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from hopper_workflow.claims.finding import Finding, above, below, counted, upper_bound
-from hopper_workflow.claims.results import number, parameters, values
+from hopper_workflow.claims.results import number, parameters, some, values
 
 
 def solutions_exist(
@@ -25,8 +25,9 @@ def solutions_exist(
     return counted(
         int(np.sum(errors < largest_error)),
         errors.size,
-        f"Largest error estimate {upper_bound(errors.max())}. In the hopper of the figures they "
-        f"exist up to mu = {limit:.4f} (Mohr-Coulomb) and {limit_von_mises:.4f} (von Mises) only.",
+        f"Largest error estimate {upper_bound(errors.max(), largest_error)}. In the hopper of the "
+        f"figures they exist up to mu = {limit:.4f} (Mohr-Coulomb) and {limit_von_mises:.4f} (von "
+        "Mises) only.",
     )
 
 
@@ -52,7 +53,7 @@ def stress_decouples_for_mohr_coulomb_only(models: xr.Dataset, *, rounding: floa
     coulomb = values(models, "coupling", model="mohr-coulomb").max()
     von_mises = values(models, "coupling", model="von-mises").min()
     error = float(values(models, "error_radial").max()) * von_mises
-    remark = f"Mohr-Coulomb {upper_bound(coulomb)}, von Mises {von_mises:.3g}."
+    remark = f"Mohr-Coulomb {upper_bound(coulomb, rounding)}, von Mises {von_mises:.3g}."
     if coulomb > rounding:
         return below(coulomb, rounding, error, remark)
     return above(von_mises, rounding, error, remark)
@@ -99,15 +100,32 @@ def _with_time(maps: tuple[xr.Dataset, ...], step: int) -> tuple[int, int]:
     return inside, solved
 
 
-def von_mises_is_not_always_hyperbolic(models: xr.Dataset) -> Finding:
+def von_mises_is_not_always_hyperbolic(models: xr.Dataset, domain: xr.Dataset) -> Finding:
     counts = values(models, "real_characteristics", model="von-mises")
     share, coarse = (float(np.mean(c < 4)) for c in (counts, counts[::2, ::2]))
-    delta, psi = values(models, "delta"), values(models, "psi")
-    on_axis = delta[counts[:, int(np.argmin(psi))] == 4]
-    all_four = f"from {on_axis.min():g} to {on_axis.max():g} deg" if on_axis.size else "nowhere"
+    first, last = (number(domain, name) for name in ("axis_hyperbolic", "tension"))
     verdict = above(share, 0.0, 0.0, "").verdict
-    remark = f"On the axis (psi = 0) hyperbolic for delta {all_four} only."
+    remark = (
+        f"On the axis (psi = 0) hyperbolic from delta = arcsin(1/sqrt(3)) = {first:.4f} to "
+        f"{last:g} deg only, elsewhere where cos(2 psi) < sqrt(3) sin(delta)."
+    )
     return Finding(share, abs(share - coarse), verdict, remark)
+
+
+def von_mises_is_more_challenging(cone_10: xr.Dataset, cone_30: xr.Dataset) -> Finding:
+    shares, words = [], []
+    for data, angle in ((cone_10, 10), (cone_30, 30)):
+        region = values(data, "region")
+        flows = some(region[~np.isin(region, ["no_radial_solution", "tension"])], "radial flow")
+        counts = {name: int(np.sum(flows == name)) for name in np.unique(flows)}
+        shares.append(float(np.isin(flows, ["saint_venant", "mixed"]).mean()))
+        listed = ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in counts.items())
+        words.append(f"half angle {angle} deg: {listed}")
+    remark = (
+        f"{'; '.join(words)}. Saint Venant: elliptic, disturbances of the ends die out away from "
+        "them. The coupled problem is an ordinary eigenproblem in four unknowns."
+    )
+    return above(min(shares), 0.0, 0.0, remark)
 
 
 def sharp_and_reliable(wedge: xr.Dataset, cone: xr.Dataset, *, same: float) -> Finding:
@@ -156,7 +174,7 @@ def jenike_tabulated_them(chart: xr.Dataset, *, reading_error: float) -> Finding
     count = int(np.sum(values(chart, "point_phi") >= parameters(chart)["least_friction_deg"]))
     remark = (
         f"Flow factors at {count} points of a published chart. The error is that of reading them; "
-        f"that of the computation is {upper_bound(computed)}."
+        f"that of the computation is {upper_bound(computed, reading_error / 1000)}."
     )
     # The mean square of so many independent errors is uncertain by sqrt(2 / count) of itself.
     return below(deviation, reading_error, reading_error / sqrt(2 * count), remark)

@@ -35,7 +35,7 @@ def levy_factor_is_positive(models: xr.Dataset, *, small: float) -> Finding:
     factors = values(models, "levy_least", model="von-mises")
     defect = float(values(models, "levy_defect", model="von-mises").max())
     least = float(factors.min())
-    remark = f"Part of V that is not proportional to T - pI: {upper_bound(defect)}."
+    remark = f"Part of V that is not proportional to T - pI: {upper_bound(defect, small)}."
     if defect > small:
         return below(defect, small, 0.0, remark)
     return above(least, 0.0, defect * least, remark)

@@ -9,6 +9,7 @@ from hopper_workflow.claims.finding import (
     LIMITED,
     Finding,
     Printed,
+    UndecidedError,
     above,
     below,
     counted,
@@ -225,4 +226,39 @@ def mohr_coulomb_is_more_conservative(
         coulomb.size,
         f"u at the wall, Mohr-Coulomb/von Mises: {pairs}. Radial flow is possible up to mu = "
         f"{limits[0]:.3f}/{limits[1]:.3f}.",
+    )
+
+
+def mohr_coulomb_is_more_conservative_on_stability(
+    coulomb_10: xr.Dataset,
+    coulomb_30: xr.Dataset,
+    von_mises_10: xr.Dataset,
+    von_mises_30: xr.Dataset,
+) -> Finding:
+    maps = zip((coulomb_10, coulomb_30), (von_mises_10, von_mises_30), strict=True)
+    counts = np.array([_verdicts(coulomb, von_mises) for coulomb, von_mises in maps])
+    both, von_mises_only, coulomb_only = counts.sum(axis=0).tolist()
+    if not both:
+        raise UndecidedError("the maps have no cone that both models call stable or unstable")
+    return above(
+        (coulomb_only - von_mises_only) / both,
+        0.0,
+        0.0,
+        f"The paper says so of stagnation. Of {both} cones that both models call stable or "
+        f"unstable, von Mises alone calls {von_mises_only} unstable, Mohr-Coulomb alone "
+        f"{coulomb_only}.",
+    )
+
+
+def _verdicts(coulomb: xr.Dataset, von_mises: xr.Dataset) -> tuple[int, int, int]:
+    """Count cones of the coarser map that both call stable or unstable, and where they differ."""
+    values(coulomb, "abscissa", gaps=True)
+    abscissa = coulomb.abscissa.interp(delta=von_mises.delta, phi=von_mises.phi).to_numpy()
+    region = values(von_mises, "region")
+    known = np.isin(region, ["stable", "unstable"]) & np.isfinite(abscissa)
+    unstable, by_von_mises = abscissa > 0, region == "unstable"
+    return (
+        int(known.sum()),
+        int(np.sum(known & by_von_mises & ~unstable)),
+        int(np.sum(known & ~by_von_mises & unstable)),
     )

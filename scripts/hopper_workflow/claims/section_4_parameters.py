@@ -233,8 +233,8 @@ def folds_are_neutral(linear: xr.Dataset, *, zero: float) -> Finding:
     passed = np.abs(values(linear, "fold_before") - values(linear, "fold_behind")) == 1
     good = (modulus <= zero + error) & passed
     remark = (
-        f"Largest |lambda| {upper_bound(modulus.max())}; the number of growing real modes differs "
-        "by one on the two sides. Such hoppers bound the domain without being on the curve that "
-        "crosses it."
+        f"Largest |lambda| {upper_bound(modulus.max(), zero)}; the number of growing real modes "
+        "differs by one on the two sides. Such hoppers bound the domain without being on the curve "
+        "that crosses it."
     )
     return counted(int(good.sum()), good.size, remark)

@@ -16,6 +16,9 @@ from hopper_workflow.claims.finding import (
 )
 from hopper_workflow.claims.results import flagged, meaning, number, some, values
 
+# Decimal digits of a condition number beyond which double precision makes it smaller.
+_RESOLVED_DIGITS = 13.0
+
 
 def equations_as_printed(linear: xr.Dataset, *, small: float) -> Finding:
     ratio = values(linear, "printed_ratio")
@@ -156,8 +159,10 @@ def filter_removes_false_growth(
 def first_derivative_is_sensitive(linear: xr.Dataset, *, extraordinary: float) -> Finding:
     digits = number(linear, "derivative_digits_lost")
     error = number(linear, "derivative_digits_lost_error")
-    remark = "Limited by double precision itself; the error is the change from the coarse mesh."
-    return above(digits, extraordinary, error, remark)
+    if digits - error > _RESOLVED_DIGITS:
+        remark = "At least: double precision does not resolve larger condition numbers."
+        return above(_RESOLVED_DIGITS, extraordinary, 0.0, remark)
+    return above(digits, extraordinary, error, "The error is the change from the coarse mesh.")
 
 
 def first_derivative_has_no_eigenvalues(linear: xr.Dataset, *, few: float) -> Finding:

@@ -40,6 +40,12 @@ class Claim:
         return f"{self.test} {label}: {'; '.join(used)}." if used else self.test
 
     @property
+    def bound(self) -> str:
+        """The threshold where there is one only, else ``none``."""
+        values = [item["value"] for item in self.thresholds.values()]
+        return f"{values[0]:g}" if len(values) == 1 else "none"
+
+    @property
     def paths(self) -> list[str]:
         """Artifacts as rules name them."""
         return [f"results/{path}" for path in self.artifacts.values()]
@@ -78,7 +84,8 @@ def paths_of(claims: Sequence[Claim]) -> list[str]:
 
 def half_angles_in(paths: Sequence[str]) -> list[str]:
     """Return the half angles, in degrees, of the maps and borders among the paths, sorted."""
-    found = (re.fullmatch(r"results/(map|borders|paper_border)/\w+_([\d.]+)\.nc", p) for p in paths)
+    kinds = r"map|borders|paper_border|von_mises/map|von_mises/domain"
+    found = (re.fullmatch(rf"results/({kinds})/\w+_([\d.]+)\.nc", path) for path in paths)
     return sorted({match[2] for match in found if match})
 
 

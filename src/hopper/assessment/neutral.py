@@ -16,6 +16,7 @@ from hopper.radial.friction_limit import friction_limit
 from hopper.radial.solution import solve_radial
 from hopper.stability.collocation import Parity
 from hopper.stability.modes import Disturbances, Governor, linear_stability
+from hopper.von_mises.growth import Governor as CoupledGovernor
 
 # Step in delta for a slope, radians.
 _STEP = 1e-6
@@ -26,7 +27,7 @@ class NeutralPoint:
     """A delta (radians) at which the spectral abscissa vanishes, and what is neutral there."""
 
     delta: Quantity
-    governed_by: Governor
+    governed_by: Governor | CoupledGovernor
     parity: Parity | None
 
     __repr__ = brief("delta deg", "governed_by", "parity")

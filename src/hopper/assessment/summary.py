@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 from hopper.arguments import Radians, checked
+from hopper.assessment.coupled import CoupledStability, assess_coupled
 from hopper.assessment.limits import Limits, assess_limits
 from hopper.assessment.radial import RadialAssessment, assess_radial
 from hopper.assessment.stability import StabilityAssessment, assess_stability
@@ -14,15 +15,21 @@ from hopper.brief import brief
 from hopper.errors import (
     ConvergenceError,
     HopperError,
-    InvalidParameterError,
     NonPositiveStressError,
     NoRadialSolutionError,
 )
 from hopper.problem import Hopper
 from hopper.stability.modes import Verdict
+from hopper.yield_conditions import VON_MISES
 
 Outcome = Literal[
-    Verdict, "no_radial_solution", "non_positive_stress", "not_converged", "not_formulated"
+    Verdict,
+    "saint_venant",
+    "mixed",
+    "tension",
+    "no_radial_solution",
+    "non_positive_stress",
+    "not_converged",
 ]
 OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
 
@@ -36,6 +43,9 @@ class Assessment:
     limits : Limits
     radial : RadialAssessment or None
     stability : StabilityAssessment or None
+        Of Mohr-Coulomb materials.
+    coupled : CoupledStability or None
+        Of von Mises materials.
     outcome : str
         The verdict of stability, or what prevents it.
     reason : str
@@ -45,10 +55,11 @@ class Assessment:
     limits: Limits
     radial: RadialAssessment | None
     stability: StabilityAssessment | None
+    coupled: CoupledStability | None
     outcome: Outcome
     reason: str
 
-    __repr__ = brief("outcome", "stability.abscissa", "limits.coefficient")
+    __repr__ = brief("outcome", "stability.abscissa", "coupled.abscissa", "limits.coefficient")
 
 
 @checked
@@ -65,18 +76,21 @@ def assess(hopper: Hopper, friction_angle: Radians) -> Assessment:
     try:
         radial = assess_radial(hopper, friction_angle)
     except (NoRadialSolutionError, NonPositiveStressError, ConvergenceError) as error:
-        return Assessment(assess_limits(hopper), None, None, _OUTCOMES[type(error)], str(error))
+        limits = assess_limits(hopper)
+        return Assessment(limits, None, None, None, _OUTCOMES[type(error)], str(error))
+    if hopper.material == VON_MISES:
+        coupled = assess_coupled(hopper, friction_angle)
+        reason = "" if coupled.abscissa or coupled.decay_down else coupled.judged.reason
+        return Assessment(radial.limits, radial, None, coupled, coupled.verdict, reason)
     try:
         found = assess_stability(radial.solution)
-    except (ConvergenceError, InvalidParameterError) as error:
-        return Assessment(radial.limits, radial, None, _OUTCOMES[type(error)], str(error))
-    return Assessment(radial.limits, radial, found, found.verdict, "")
+    except ConvergenceError as error:
+        return Assessment(radial.limits, radial, None, None, "not_converged", str(error))
+    return Assessment(radial.limits, radial, found, None, found.verdict, "")
 
 
 _OUTCOMES: dict[type[HopperError], Outcome] = {
     NoRadialSolutionError: "no_radial_solution",
     NonPositiveStressError: "non_positive_stress",
     ConvergenceError: "not_converged",
-    # The only one that stability knows is a material it has no equations for.
-    InvalidParameterError: "not_formulated",
 }

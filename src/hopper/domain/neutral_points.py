@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
 from math import degrees, radians
-from typing import Literal, get_args
+from typing import Literal
 
 import numpy as np
 from scipy.optimize import brentq
@@ -24,10 +24,9 @@ from hopper.radial.friction_limit import End, friction_limit
 from hopper.stability.modes import Disturbances, LinearStability
 from hopper.values import require_angle
 
-IntervalEnd = Literal["neutral", End, "stress_not_positive", "not_converged", "steepest_looked_at"]
-INTERVAL_ENDS: tuple[IntervalEnd, ...] = (
-    "neutral", *get_args(End), "stress_not_positive", "not_converged", "steepest_looked_at"
-)  # fmt: skip
+IntervalEnd = Literal[
+    "neutral", End, "stress_not_positive", "not_converged", "steepest_looked_at", "tension"
+]  # fmt: skip
 
 # Of delta: step of the scan, and its largest value.
 _STEP, _STEEPEST = radians(1), radians(89)
@@ -45,7 +44,8 @@ class StableInterval:
     """Hoppers with ``lower`` < delta < ``upper`` (radians) are stable, and what ends that.
 
     Ends are a neutral point; a limit of the family of radial solutions: fold, wall, interior or
-    axis; stress that is not positive; or where modes are no longer resolved or looked at.
+    axis; stress that is not positive, or tensile; or where modes are no longer resolved or looked
+    at.
     """
 
     lower: float

@@ -10,7 +10,7 @@ All radial solutions of a hopper form a curve with one member for each tau.
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import cos, inf, isfinite
+from math import inf, isfinite
 from sys import float_info
 
 import numpy as np
@@ -159,20 +159,8 @@ def moved(u: Array, old: Grid, new: Grid) -> Array:
 
 
 @checked
-def psi_maximum(member: Member) -> tuple[float, float]:
-    """Return (theta, psi), radians, at the largest psi on [0, theta_w]."""
-    x, psi = _peak(member)
-    return member.grid.half_angle * float(member.grid.map.forward(np.array([x]))[0][0]), psi
-
-
-@checked
 def largest_psi(member: Member) -> float:
     """Return the largest psi (radians) on [0, theta_w]."""
-    return _peak(member)[1]
-
-
-def _peak(member: Member) -> tuple[float, float]:
-    """Return the Chebyshev point of the largest psi, and that psi (radians)."""
     coefficients, angles, samples = _psi_samples(member.grid.size)
     top = int((samples @ member.psi).argmax())
     series = coefficients @ member.psi
@@ -180,7 +168,7 @@ def _peak(member: Member) -> tuple[float, float]:
     angle, step = angles[top], angles[1]
     if not top:
         if odd * odd @ series >= 0:
-            return 1.0, member.psi_wall
+            return member.psi_wall
         angle = step / 2  # psi falls towards the wall, from a maximum before it
     # Newton's iteration for the slope of the series of cos(odd * angle).
     for _ in range(_TO_MAXIMUM):
@@ -189,7 +177,7 @@ def _peak(member: Member) -> tuple[float, float]:
         if bend <= 0 or abs(slope) < _FLAT * bend:
             break
         angle = min(max(angle - slope / bend, angles[top] - step), angles[top] + step)
-    return cos(angle), float(np.cos(odd * angle) @ series)
+    return float(np.cos(odd * angle) @ series)
 
 
 @lru_cache(maxsize=64)

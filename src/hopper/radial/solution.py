@@ -19,7 +19,7 @@ from hopper.errors import (
     not_resolved_because,
 )
 from hopper.problem import Hopper, as_angles
-from hopper.radial.collocation import Member, psi_maximum
+from hopper.radial.collocation import Member
 from hopper.radial.equations import slopes
 from hopper.radial.fields import stacked_fields
 from hopper.radial.friction_limit import friction_limit
@@ -142,8 +142,21 @@ class RadialSolution:
         return sigma, psi, sigma * dlog, dpsi
 
     def psi_maximum(self) -> tuple[float, float]:
-        """Return (theta, psi), radians, at the largest psi on [0, theta_w]."""
-        return psi_maximum(self.member)
+        """Return (theta, psi), radians, at the largest psi on [0, theta_w].
+
+        The slope of psi is that of the equations: its error is as small as that of the fields.
+        """
+        theta = np.linspace(0, self.hopper.half_angle, 8 * self.theta.size + 1)
+        peak = int(np.argmax(self.psi_at(theta)))
+
+        def slope(angle: float) -> float:
+            return float(self.fields(angle)[3][0])
+
+        low, high = theta[max(peak - 1, 0)], theta[min(peak + 1, theta.size - 1)]
+        if slope(low) > 0 > slope(high):
+            angle = brentq(slope, low, high, xtol=1e-13)
+            return float(angle), float(self.psi_at(angle)[0])
+        return float(theta[peak]), float(self.psi_at(theta[peak])[0])
 
     @checked
     def first_angle_with(self, psi: float) -> float | None:

@@ -69,7 +69,9 @@ def require_mohr_coulomb(hopper: Hopper) -> None:
     """
     if hopper.material != MOHR_COULOMB:
         raise InvalidParameterError(
-            "linear stability is formulated for Mohr-Coulomb materials only: use mohr-coulomb"
+            f"material = {hopper.material.name} couples stress and velocity: use "
+            "hopper.von_mises.verdict; transients and pseudospectra are refused, as the "
+            "collocation matrix of that problem grows in ways that the equations do not"
         )
 
 
