@@ -1,10 +1,9 @@
 """What the subcommands answer, as text or JSON; files and plots on the way."""
 
-import json
 from argparse import Namespace
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import asdict
-from math import degrees, isfinite, radians
+from math import degrees, radians
 from pathlib import Path
 from typing import Any
 
@@ -16,18 +15,19 @@ from hopper.assessment.limits import assess_limits, tangency_coefficient
 from hopper.assessment.neutral import Interval, NeutralPoint, assess_neutral
 from hopper.assessment.radial import assess_radial
 from hopper.assessment.stability import StabilityAssessment, assess_stability
+from hopper.design.flow_pattern import flow_pattern
+from hopper.design.half_angles import Material
 from hopper.errors import ConvergenceError, NoRadialSolutionError, WallFrictionError
 from hopper.problem import as_geometry
 from hopper.quantity import Quantity
 from hopper.radial.solution import solve_radial
 from hopper.stability.collocation import Parity
-from hopper_cli import sentences, text
+from hopper_cli import documents, sentences, text
 from hopper_cli.errors import UsageError
 from hopper_cli.outputs import write_csv
 from hopper_data import assessments, tables
 from hopper_data.assessments import Part
 from hopper_data.inputs import Case, Wall
-from hopper_data.tables import Row
 
 _NO_TRANSIENT = (
     "no transient growth: the collocation matrix grows in ways that the equations do not"
@@ -45,6 +45,10 @@ def answer(options: Namespace) -> str:
     HopperError
         If there is no answer; the message says up to which friction there is one.
     """
+    if options.command == "design":
+        from hopper_cli import designs
+
+        return designs.answer(options)
     commands = {"radial": _radial, "stability": _stability, "neutral": _neutral}
     return commands[options.command](options)
 
@@ -64,18 +68,19 @@ def _radial(options: Namespace) -> str:
         main = [
             row for row in rows + limits if row.variable.name not in ("mu_limit", "mu_tangency")
         ]
-        return _json(
+        return documents.as_json(
             case.echoed(),
             rows + limits,
+            sentence=_mass_flow(case),
             limit_end=end,
             error_estimate=max(row.relative_error for row in main),
             notes=[*options.doubts, *found.notes],
         )
     shown = [row for row in limits if row.variable.name != "mu_limit" or end != "fold"]
-    return _text(
-        f"Radial solution: {case}",
+    return documents.as_text(
+        _mass_flow(case),
         text.number_cells(rows + shown),
-        [*found.notes, sentences.radial_sentence(found)],
+        [f"Radial solution: {case}", *found.notes, sentences.radial_sentence(found)],
     )
 
 
@@ -97,9 +102,10 @@ def _stability(options: Namespace) -> str:
         if values.size < options.modes
     ]
     if options.json:
-        return _json(
+        return documents.as_json(
             case.echoed(),
             rows,
+            sentence=_mass_flow(case),
             **{key: _pairs(shown.get(parity)) for parity, key in _JSON.items()},
             governed_by=found.result.governed_by,
             parity=found.result.parity,
@@ -114,10 +120,10 @@ def _stability(options: Namespace) -> str:
         for parity, pairs in shown.items()
         for number, (value, error) in enumerate(zip(*pairs, strict=True), start=1)
     ]
-    return _text(
-        f"Linear stability: {case}",
+    return documents.as_text(
+        _mass_flow(case),
         cells + text.number_cells(rows),
-        [*notes, sentences.stability_sentence(case.geometry, found)],
+        [f"Linear stability: {case}", *notes, sentences.stability_sentence(case.geometry, found)],
     )
 
 
@@ -146,10 +152,10 @@ def _coupled(options: Namespace, case: Case) -> str:
         for edges in growth.strips.intervals.tolist():
             low, high = (text.rounded(edge, growth.strips.error_estimate) for edge in edges)
             cells.append(("strip of high frequency", f"{low} to {high}"))
-    return _text(
-        f"Linear stability: {case}",
+    return documents.as_text(
+        _mass_flow(case),
         cells + text.number_cells(tables.rows(found, assessments.COUPLED)),
-        [*notes, sentences.coupled_sentence(found)],
+        [f"Linear stability: {case}", *notes, sentences.coupled_sentence(found)],
     )
 
 
@@ -157,9 +163,10 @@ def _coupled_json(case: Case, found: CoupledStability, modes: _Pairs, notes: lis
     null = tables.rows({}, assessments.STABILITY + assessments.TANGENCY)
     rows = tables.rows(found, assessments.COUPLED)
     kind, growth = found.judged.type, found.judged.growth
-    return _json(
+    return documents.as_json(
         case.echoed(),
         [*null, *rows],
+        sentence=_mass_flow(case),
         type=found.type,
         verdict=found.verdict,
         reason=found.judged.reason,
@@ -211,7 +218,7 @@ def _neutral(options: Namespace) -> str:
     inputs = given | asdict(wall)
     if options.json:
         first = found.points[0] if found.points else None
-        return _json(
+        return documents.as_json(
             inputs,
             rows,
             neutral_points=[_point(point) for point in found.points],
@@ -221,7 +228,7 @@ def _neutral(options: Namespace) -> str:
             error_estimate=first and rows[0].error,
             notes=options.doubts,
         )
-    return _text(
+    return documents.as_text(
         f"Neutral stability: {kind}, half angle {options.half_angle:g} deg, {wall}",
         text.neutral_cells(found),
         [sentences.neutral_sentence(geometry, found)],
@@ -264,33 +271,21 @@ def _case(options: Namespace) -> Case:
     return case
 
 
+def _mass_flow(case: Case) -> str:
+    """Return whether there is mass flow, in a sentence; the same in every answer about a hopper."""
+    hopper = case.hopper
+    material = Material(hopper.geometry, hopper.delta, case.wall.friction_angle, hopper.material)
+    try:
+        return sentences.mass_flow_sentence(flow_pattern(material, hopper.half_angle))
+    except ConvergenceError as error:
+        return f"Mass flow: not known, {error}."
+
+
 def _explained(error: ConvergenceError, what: str, mu: Quantity | None) -> ConvergenceError:
     """Return the error with the largest friction that has ``what``, where that is known."""
     if mu is None:
         return error
     return type(error)(f"{error}; the largest friction with {what} is {Wall.of(mu.value)}")
-
-
-def _text(title: str, cells: Sequence[tuple[str, str]], sentences: Sequence[str]) -> str:
-    return "\n".join([title, "", text.table(cells), "", *sentences])
-
-
-def _json(inputs: dict[str, Any], rows: Sequence[Row], **more: Any) -> str:
-    rows = [*rows, *(row.in_degrees() for row in rows if row.variable.units == "radian")]
-    errors = {row.variable.name: row.error for row in rows if row.error is not None}
-    errors |= more.pop("errors", {})
-    numbers = {row.variable.name: row.value for row in rows}
-    document = {**inputs, **numbers, **more, "errors": errors}
-    return json.dumps(_finite(document), indent=2, allow_nan=False)
-
-
-def _finite(value: Any) -> Any:
-    """Return a JSON value with null for what is not finite: JSON has no NaN."""
-    if isinstance(value, dict):
-        return {key: _finite(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(item) for item in value]
-    return None if isinstance(value, float) and not isfinite(value) else value
 
 
 def _write(options: Namespace, case: Case, found: Part) -> None:

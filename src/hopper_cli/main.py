@@ -15,7 +15,7 @@ from typing import NoReturn
 
 import hopper
 from hopper.errors import HopperError, InvalidParameterError
-from hopper_cli import hints
+from hopper_cli import design_options, hints
 from hopper_cli.errors import UsageError
 from hopper_cli.outputs import FileError, checked
 
@@ -26,6 +26,7 @@ EXAMPLES = {
     "radial": "hopper radial --geometry cone --delta 40 --half-angle 20 --mu 0.3",
     "stability": "hopper stability --geometry cone --delta 40 --half-angle 20 --mu 0.3",
     "neutral": "hopper neutral --geometry cone --half-angle 10 --phi 10",
+    "design": "hopper design --geometry cone --delta 40 --phi 16",
 }
 # The extra of the distribution and its libraries that a file of this suffix needs.
 _LIBRARIES = {".csv": ("", list[str]()), ".nc": ("data", ["xarray", "netCDF4"])}
@@ -120,7 +121,13 @@ def _parser() -> argparse.ArgumentParser:
     )
     _add_geometry_and_model(neutral)
     _add_half_angle_and_wall(neutral)
-    for command in (stability, neutral):
+    design = _command(
+        commands, "design", "how wide a hopper may be for mass flow, and its smallest outlet"
+    )
+    _add_material(design)
+    _add_wall(design)
+    design_options.add(design)
+    for command in (stability, neutral, design):
         command.add_argument(
             "--disturbances",
             choices=["symmetric", "any"],
@@ -131,11 +138,15 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _add_hopper(command: argparse.ArgumentParser) -> None:
+    _add_material(command)
+    _add_half_angle_and_wall(command)
+
+
+def _add_material(command: argparse.ArgumentParser) -> None:
     _add_geometry_and_model(command)
     command.add_argument(
         "--delta", type=_angle, required=True, metavar="DEG", help="angle of internal friction"
     )
-    _add_half_angle_and_wall(command)
 
 
 def _add_files(command: argparse.ArgumentParser, profile: str) -> None:
@@ -185,6 +196,10 @@ def _add_half_angle_and_wall(command: argparse.ArgumentParser) -> None:
         metavar="DEG",
         help="half opening angle, from the vertical",
     )
+    _add_wall(command)
+
+
+def _add_wall(command: argparse.ArgumentParser) -> None:
     wall = command.add_mutually_exclusive_group(required=True)
     wall.add_argument("--mu", type=_coefficient, help="coefficient of wall friction, tan(phi)")
     wall.add_argument("--phi", type=_wall_angle, metavar="DEG", help="angle of wall friction")
@@ -237,7 +252,9 @@ def _check(options: argparse.Namespace) -> None:
             "argument --model: von-mises is formulated for cones only: use --geometry cone or "
             "--model mohr-coulomb"
         )
-    if options.command == "neutral":
+    if options.command == "design":
+        design_options.check(options)
+    if options.command in ("neutral", "design"):
         return
     for option, path, suffixes in (
         ("--profile", options.profile, (".csv", ".nc")),

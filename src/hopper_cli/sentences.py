@@ -6,6 +6,9 @@ from hopper.assessment.coupled import CoupledStability
 from hopper.assessment.neutral import NeutralAssessment
 from hopper.assessment.radial import RadialAssessment
 from hopper.assessment.stability import StabilityAssessment
+from hopper.design.design import Design
+from hopper.design.flow_pattern import FlowPattern
+from hopper.design.half_angles import Limit
 from hopper_cli.text import described
 
 _ENDS = {
@@ -14,6 +17,41 @@ _ENDS = {
     "interior": "where psi reaches its singular angle inside the hopper",
     "axis": "where the stress on the axis vanishes",
 }
+
+
+def mass_flow_sentence(found: FlowPattern) -> str:
+    """Return whether there is mass flow, and with how much half angle to spare."""
+    if found.spare is None:
+        return f"Mass flow: {'yes' if found.mass_flow else 'no'}, {found.reason}."
+    spare = f"{abs(degrees(found.spare.value)):.3g} deg"
+    if found.mass_flow:
+        return f"Mass flow: yes, with {spare} of half angle to spare."
+    return f"Mass flow: no, the half angle is {spare} too large."
+
+
+_LIMITS: dict[Limit, str] = {
+    "classical": "the classical limit of mass flow",
+    "limit": "the largest half angle with a radial solution",
+    "velocity": "where radial flow ceases to reach the wall",
+    "stability": "where the flow ceases to be stable",
+}
+
+
+def design_sentence(found: Design) -> str:
+    """Return up to which half angle there is mass flow, and the recommended one."""
+    angles = found.half_angles
+    flows = (
+        f"up to a half angle of {degrees(angles.mass_flow.value):.4g} deg"
+        if angles.mass_flow
+        else angles.no_mass_flow
+    )
+    if found.recommended is None or angles.governed_by is None or angles.smallest is None:
+        return f"Mass flow: {flows}; no half angle is recommended."
+    kept = degrees(angles.smallest.value - found.recommended.value)
+    return (
+        f"Mass flow: {flows}; recommended {degrees(found.recommended.value):.4g} deg, {kept:.3g} "
+        f"deg below {_LIMITS[angles.governed_by]}."
+    )
 
 
 def radial_sentence(radial: RadialAssessment) -> str:

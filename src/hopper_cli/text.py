@@ -56,7 +56,7 @@ def number_cells(rows: Sequence[Row]) -> list[tuple[str, str]]:
 
 
 def _unit(variable: Variable) -> str:
-    return variable.scale or _UNITS[variable.units]
+    return variable.scale or _UNITS.get(variable.units, variable.units)
 
 
 def table(cells: Sequence[tuple[str, str]]) -> str:

@@ -59,6 +59,38 @@ SPECTRUM: Table = within("spectrum", eigenvalues("symmetric"))
 NEUTRAL: Table = (
     angle("delta_neutral_deg", "smallest neutral angle of internal friction", source="delta"),
 )
+DESIGN: Table = (
+    angle(
+        "half_angle_classical_deg",
+        "largest half angle, classical mass flow",
+        source="half_angles.classical",
+    ),
+    angle(
+        "half_angle_limit_deg",
+        "largest half angle with a radial solution",
+        source="half_angles.limit",
+    ),
+    angle(
+        "half_angle_velocity_deg",
+        "largest half angle, radial flow reaches the wall",
+        source="half_angles.velocity",
+    ),
+    angle(
+        "half_angle_stability_deg",
+        "largest half angle that is stable",
+        source="half_angles.stability",
+    ),
+    angle(
+        "half_angle_stable_from_deg",
+        "least half angle that is stable",
+        source="half_angles.stable_from",
+    ),
+    angle("half_angle_recommended_deg", "recommended half angle", source="recommended"),
+    number("flow_factor", "flow factor there"),
+    number("velocity_ratio", "velocity at the wall there", scale="u(0)"),
+    number("critical_stress_kpa", "critical stress", source="outlet.stress", units="kPa"),
+    number("outlet_m", "smallest outlet", source="outlet.width", units="m"),
+)
 # The governor's names are those of the result within.
 STABILITY_WHOLE: Table = (
     *SPECTRUM,

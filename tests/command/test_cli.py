@@ -336,7 +336,8 @@ def test_what_does_not_exist_is_null(answer, command, null):
 def test_text_for_people(run):
     code, out, err = run(f"radial {STEEL}")
     assert (code, err) == (0, "")
-    assert out.startswith("Radial solution: cone, mohr-coulomb, delta 40 deg, half angle 20 deg")
+    assert out.startswith("Mass flow: yes, with 11.7 deg of half angle to spare.\n\n")
+    assert "\nRadial solution: cone, mohr-coulomb, delta 40 deg, half angle 20 deg" in out
     assert re.search(r"average stress at the wall +0\.2603136708 \+- \de-14 rho g r\n", out)
     assert re.search(r"mass-flow limit of phi +25\.00866408 \+- \de-1\d deg\n", out)
     assert out.splitlines()[-1] == (

@@ -108,7 +108,7 @@ def test_recommended_half_angle_keeps_the_margin_and_is_solved():
 def test_nothing_to_recommend():
     nothing = design(material("wedge", 30, 12), MARGIN)
     assert nothing.recommended is None
-    assert nothing.notes[-1] == "recommended: nothing limits the half angle"
+    assert nothing.notes[-1] == "recommended: there is no limit to keep the margin from"
     narrow = design(material("cone", 38, 14), radians(40))
     assert narrow.recommended is None
     assert "margin" in narrow.notes[-1]

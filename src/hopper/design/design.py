@@ -80,7 +80,7 @@ def design(
         recommended = None
     if recommended is None:
         if smallest is None:
-            notes.append("recommended: nothing limits the half angle")
+            notes.append("recommended: there is no limit to keep the margin from")
         return Design(found, None, None, None, None, tuple(notes))
     if found.stable_from and recommended.value < found.stable_from.value:
         notes.append("stability: the recommended hopper is narrower than the stable ones")

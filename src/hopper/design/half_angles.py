@@ -6,7 +6,7 @@ All are functions of the half angle at given delta and wall friction, so that an
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import degrees, isnan, nan, pi, radians
-from typing import Literal, get_args
+from typing import Literal, TypeVar, get_args
 
 import numpy as np
 from scipy.optimize import brentq
@@ -33,12 +33,15 @@ from hopper.yield_conditions import MOHR_COULOMB, YieldCondition
 
 Limit = Literal["classical", "limit", "velocity", "stability"]
 LIMITS: tuple[Limit, ...] = get_args(Limit)
+_Found = TypeVar("_Found")
 
 # The narrowest and the widest half angle looked at, and where roots end (radians).
 _NARROWEST, _WIDEST, _ROOT = radians(0.5), radians(89), 1e-12
 # Half angles at which stability is looked at, and how far below the limit of friction the last may
 # be, relative: the first of these at which fields are resolved.
-_SAMPLES, _BELOW = 16, (1e-8, 1e-6, 1e-4, 1e-2)
+_SAMPLES, _BELOW = 16, (1e-8, 1e-6, 1e-4, 1e-2, 0.05, 0.2)
+# How close to the limit of friction is as good as there, relative.
+_CLOSE = 1e-3
 # Step for slopes, radians.
 _STEP = 1e-6
 
@@ -93,6 +96,8 @@ class HalfAngles:
         The least half angle of that stable interval, where narrower hoppers are not stable.
     mass_flow : Quantity or None
         The one of mass flow: ``classical`` of Mohr-Coulomb cones, ``velocity`` of others.
+    no_mass_flow : str
+        Why that is None; empty otherwise.
     notes : tuple of str
         Why something is None.
     """
@@ -103,6 +108,7 @@ class HalfAngles:
     stability: Quantity | None
     stable_from: Quantity | None
     mass_flow: Quantity | None
+    no_mass_flow: str
     notes: tuple[str, ...]
 
     __repr__ = brief("classical deg", "limit deg", "velocity deg", "stability deg")
@@ -135,21 +141,25 @@ def half_angles(material: Material, disturbances: Disturbances | None = None) ->
     """
     narrow = material.hopper(_NARROWEST)
     narrow.material.wall_angle(narrow.delta, material.friction_angle)
-    notes: list[str] = []
+    notes: dict[Limit, str] = {}
     classical = _noted(notes, "classical", lambda: _classical(material))
     limit = _noted(notes, "limit", lambda: _limit(material))
     # A limit that is not there is none at all only where no wall is too wide.
     widest = limit.value if limit else _WIDEST
     velocity = _noted(notes, "velocity", lambda: _velocity(material, widest))
-    least = stability = None
-    try:
-        if material.condition != MOHR_COULOMB:
-            raise NoLimitError("not formulated for this yield condition")
-        least, stability = _stable(material, limit, disturbances)
-    except HopperError as error:
-        notes.append(f"stability: {error}")
-    flows = classical if _slips(material) else velocity
-    return HalfAngles(classical, limit, velocity, stability, least, flows, tuple(notes))
+    stable = _noted(notes, "stability", lambda: _stable(material, limit, disturbances))
+    least, stability = stable or (None, None)
+    name: Limit = "classical" if _slips(material) else "velocity"
+    return HalfAngles(
+        classical,
+        limit,
+        velocity,
+        stability,
+        stable_from=least,
+        mass_flow=classical if name == "classical" else velocity,
+        no_mass_flow=notes.get(name, ""),
+        notes=tuple(f"{name}: {reason}" for name, reason in notes.items()),
+    )
 
 
 @checked
@@ -181,11 +191,11 @@ def _slips(material: Material) -> bool:
     return material.geometry == "cone" and material.condition == MOHR_COULOMB
 
 
-def _noted(notes: list[str], name: Limit, find: Callable[[], Quantity]) -> Quantity | None:
+def _noted(notes: dict[Limit, str], name: Limit, find: Callable[[], _Found]) -> _Found | None:
     try:
         return find()
     except HopperError as error:
-        notes.append(f"{name}: {error}")
+        notes[name] = str(error)
         return None
 
 
@@ -236,6 +246,8 @@ def _velocity(material: Material, widest: float) -> Quantity:
         raise NowhereError("radial flow reaches the wall at no half angle")
     end = _widest_solved(material, widest)
     if excess(end) < 0:
+        if end < widest * (1 - _CLOSE):
+            raise ConvergenceError(f"not resolved beyond {degrees(end):.4g} deg")
         raise NoLimitError("radial flow reaches the wall wherever it exists")
     root = brentq(excess, _NARROWEST, end, xtol=_ROOT)
     (psi,) = with_errors(
@@ -260,6 +272,8 @@ def _stable(
     material: Material, limit: Quantity | None, disturbances: Disturbances | None
 ) -> tuple[Quantity | None, Quantity]:
     """Return the ends of the widest stable interval of half angles; the first None without one."""
+    if material.condition != MOHR_COULOMB:
+        raise NoLimitError("looked at for Mohr-Coulomb materials only")
 
     def abscissa(half_angle: float) -> float:
         return linear_stability(material.solution(half_angle), disturbances).abscissa
