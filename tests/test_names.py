@@ -211,6 +211,8 @@ def results():
         branch_up_to(cone, 0.1), *stacked_starts([solution], ["symmetric"]),
         piece, piece.end, solution.member.grid.map, form.panels[0],
         *sign_changes(np.cos, [1.0, 2.0], 0.1),
+        found_design, found_design.half_angles, found_design.outlet, wanted, wanted.flow_function,
+        steel_wall, flow_pattern(steel_wall, 0.2),
         describe_coupled(elliptic), judged, judged.type, judged.growth, judged.modes,
         judged.growth and judged.growth.strips,
         coupled_borders(radians(10), np.array([0.5])), sweep_coupled(hard, np.array([0.1])),

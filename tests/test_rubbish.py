@@ -21,6 +21,7 @@ from scipy.sparse import csr_array
 import hopper
 from hopper import Hopper, schur_form, solve_radial
 from hopper.arrays import Array, Complex, Mask, Numbers
+from hopper.design.half_angles import Material
 from hopper.domain.growth import Hoppers
 from hopper.errors import HopperError, InvalidParameterError
 from hopper.radial.grid import half_grid
@@ -90,6 +91,7 @@ def instances() -> dict[type, Any]:
         type(solution.member): solution.member,
         type(cone.material): cone.material,
         Hoppers: Hoppers("cone", 0.3),
+        Material: Material("cone", 0.5, 0.1),
         ModalBasis: basis_of(np.diag([-1.0, -2]), np.ones(2), np.array([-1, -2], dtype=complex)),
         hopper.SchurForm: schur_form(np.eye(2)),
         type(half_grid(8, 0.3)): half_grid(8, 0.3),

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hopper.design.outlet import FlowFunction
+from hopper.design.outlet import FlowFunction, flow_function
 from hopper.errors import InvalidParameterError
 
 COLUMNS = ("sigma_1", "f_c")
@@ -34,7 +34,7 @@ def read_flow_function(path: Path) -> FlowFunction:
         [[_stress(path, i, name, row[name]) for name in COLUMNS] for i, row in enumerate(rows, 2)]
     )
     try:
-        return FlowFunction(stresses[:, 0], stresses[:, 1])
+        return flow_function(stresses[:, 0], stresses[:, 1])
     except InvalidParameterError as error:
         raise InvalidParameterError(f"{path}: {error}") from None
 

@@ -9,8 +9,8 @@ import pytest
 from hopper.design.design import Demand, design
 from hopper.design.half_angles import Material, half_angles
 from hopper.design.outlet import (
-    FlowFunction,
     critical_stress,
+    flow_function,
     linear_flow_function,
     smallest_outlet,
 )
@@ -124,7 +124,7 @@ def test_von_mises_is_limited_by_solutions_and_velocity():
 def test_outlet_of_the_textbook():
     """Rhodes, Introduction to Particle Technology (2008), exercise 10.1: 0.355 m for ff = 1.5."""
     stress = np.linspace(0.01, 10, 4000)
-    strength = FlowFunction(stress, stress**0.45)
+    strength = flow_function(stress, stress**0.45)
     hopper = Hopper("cone", radians(40), radians(30))
     found = smallest_outlet(hopper, Quantity(1.5, 0.0), strength, 1000.0)
     assert found.width.value == pytest.approx(0.355, abs=5e-4)
@@ -142,7 +142,7 @@ def test_critical_stress_of_a_straight_flow_function(intercept, slope, factor):
 
 
 def test_the_last_crossing_counts():
-    wavy = FlowFunction(np.array([0.0, 1.0, 2.0, 3.0, 4.0]), np.array([0.5, 0.4, 1.6, 1.4, 1.0]))
+    wavy = flow_function([0.0, 1.0, 2.0, 3.0, 4.0], [0.5, 0.4, 1.6, 1.4, 1.0])
     at = critical_stress(wavy, 1.5) * 1.5
     assert 2 < at < 3
     assert np.interp(at, wavy.major, wavy.strength) == pytest.approx(at / 1.5, rel=1e-14)
@@ -152,8 +152,8 @@ def test_the_last_crossing_counts():
     ("function", "words"),
     [
         (linear_flow_function(1.0, 0.8), "no outlet"),
-        (FlowFunction(np.array([1.0, 2.0]), np.array([0.1, 0.1])), "smaller sigma_1"),
-        (FlowFunction(np.array([1.0, 2.0]), np.array([2.0, 3.0])), "no outlet"),
+        (flow_function([1.0, 2.0], [0.1, 0.1]), "smaller sigma_1"),
+        (flow_function([1.0, 2.0], [2.0, 3.0]), "no outlet"),
     ],
 )
 def test_flow_functions_that_never_cross(function, words):
@@ -169,7 +169,7 @@ def test_flow_functions_that_never_cross(function, words):
 )
 def test_flow_functions_that_are_none(major, strength):
     with pytest.raises(InvalidParameterError):
-        FlowFunction(np.array(major), np.array(strength))
+        flow_function(major, strength)
 
 
 def test_error_of_the_outlet_covers_that_of_the_flow_factor():

@@ -29,6 +29,7 @@ from hopper.radial.friction_limit import friction_limit
 from hopper.radial.mass_flow import mass_flow_half_angle
 from hopper.radial.solution import RadialSolution, solve_radial
 from hopper.stability.modes import Disturbances, linear_stability
+from hopper.values import require_angle, shown
 from hopper.yield_conditions import MOHR_COULOMB, YieldCondition
 
 Limit = Literal["classical", "limit", "velocity", "stability"]
@@ -57,6 +58,11 @@ class Material:
         Angles of internal friction and of wall friction.
     condition : YieldCondition
         Mohr-Coulomb, or von Mises (cone only).
+
+    Raises
+    ------
+    InvalidParameterError
+        If a value is out of range, or the combination is not modelled.
     """
 
     geometry: Geometry
@@ -65,6 +71,15 @@ class Material:
     condition: YieldCondition = MOHR_COULOMB
 
     __repr__ = brief("geometry", "delta deg", "friction_angle deg", "condition.name")
+
+    def __post_init__(self) -> None:
+        condition: object = self.condition
+        if not isinstance(condition, YieldCondition):
+            raise InvalidParameterError(
+                f"condition = {shown(condition)} is not a yield condition: use yield_condition(name)"
+            )
+        Hopper(self.geometry, self.delta, _NARROWEST, self.condition)
+        require_angle("friction_angle", self.friction_angle, zero_allowed=True)
 
     @checked
     def hopper(self, half_angle: Radians) -> Hopper:

@@ -14,7 +14,8 @@ from math import inf
 
 import numpy as np
 
-from hopper.arguments import Positive, Row, checked
+from hopper.arguments import Positive, RealRow, checked
+from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 from hopper.problem import Hopper
@@ -40,22 +41,35 @@ class FlowFunction:
         Of f_c beyond the last point; None where nothing is known there.
     """
 
-    major: Row
-    strength: Row
+    major: Array
+    strength: Array
     slope: float | None = None
 
     __repr__ = brief("major", "strength", "slope")
 
-    def __post_init__(self) -> None:
-        if self.major.shape != self.strength.shape or not self.major.size:
-            raise InvalidParameterError(
-                "major and strength differ in length or are empty: give one f_c for each sigma_1"
-            )
-        known = np.isfinite(self.major).all() and np.isfinite(self.strength).all()
-        if not known or self.major.min() < 0 or self.strength.min() < 0:
-            raise InvalidParameterError("major and strength must be stresses of 0 kPa or more")
-        if np.any(np.diff(self.major) <= 0):
-            raise InvalidParameterError("major must increase: sort the points, each sigma_1 once")
+
+@checked
+def flow_function(
+    major: RealRow, strength: RealRow, slope: float | None = None
+) -> FlowFunction:
+    """Return a flow function through points (kPa), with the slope beyond them where that is known.
+
+    Raises
+    ------
+    InvalidParameterError
+        If they are not as many stresses of 0 or more, or sigma_1 does not increase.
+    """
+    x, y = np.asarray(major, dtype=float), np.asarray(strength, dtype=float)
+    if x.size != y.size or not x.size:
+        raise InvalidParameterError(
+            "major and strength differ in length or are empty: give one f_c for each sigma_1"
+        )
+    for name, values in (("major", x), ("strength", y)):
+        if values.min() < 0:
+            raise InvalidParameterError(f"{name} has negative stresses: give 0 kPa or more")
+    if np.any(np.diff(x) <= 0):
+        raise InvalidParameterError("major must increase: sort the points, each sigma_1 once")
+    return FlowFunction(x, y, slope)
 
 
 @checked
@@ -67,11 +81,11 @@ def linear_flow_function(intercept: float, slope: float = 0.0) -> FlowFunction:
     InvalidParameterError
         If the intercept is negative.
     """
-    return FlowFunction(np.zeros(1), np.array([intercept]), slope)
+    return flow_function([0.0], [intercept], slope)
 
 
 @checked
-def critical_stress(flow_function: FlowFunction, factor: Positive) -> float:
+def critical_stress(function: FlowFunction, factor: Positive) -> float:
     """Return f_crit (kPa), where f_c = sigma_1 / ff for the last time.
 
     Raises
@@ -79,10 +93,10 @@ def critical_stress(flow_function: FlowFunction, factor: Positive) -> float:
     InvalidParameterError
         If they are nowhere equal; the message says which of both is larger.
     """
-    major, strength = flow_function.major, flow_function.strength
+    major, strength = function.major, function.strength
     excess = strength - major / factor
     if excess[-1] > 0:
-        steeper = inf if flow_function.slope is None else flow_function.slope
+        steeper = inf if function.slope is None else function.slope
         fall = 1 / factor - steeper
         if not 0 < fall < inf:
             raise InvalidParameterError(
@@ -116,7 +130,7 @@ class Outlet:
 
 @checked
 def smallest_outlet(
-    hopper: Hopper, factor: Quantity, flow_function: FlowFunction, density: Positive
+    hopper: Hopper, factor: Quantity, function: FlowFunction, density: Positive
 ) -> Outlet:
     """Return the smallest outlet of a hopper of flow factor ``factor``; density in kg/m^3.
 
@@ -125,9 +139,9 @@ def smallest_outlet(
     InvalidParameterError
         As :func:`critical_stress`.
     """
-    stress = critical_stress(flow_function, factor.value)
+    stress = critical_stress(function, factor.value)
     # Of the flow factor: f_crit moves along the flow function.
-    moved = critical_stress(flow_function, factor.value + factor.error) - stress
+    moved = critical_stress(function, factor.value + factor.error) - stress
     scale = geometry_factor(hopper) * _KILO / (density * GRAVITY)
     error = abs(moved) + 4 * float(np.finfo(float).eps) * stress
     return Outlet(Quantity(stress, error), Quantity(scale * stress, scale * error))
