@@ -168,10 +168,10 @@ def profile(theta: ArrayLike, sigma: ArrayLike, psi: ArrayLike) -> Top:
 
 
 def riemann_deviation(base: Base, top: Top, x: Array) -> Array:
-    """Return the deviations of R+ at x and of R- at -x that a top prescribes, shape (2, n)."""
-    factor = 2 * tan(base.hopper.delta)
-    plus, minus = (top.deviation(base, at) for at in (x, -x))
-    return np.stack([plus[0] + factor * plus[1], minus[0] - factor * minus[1]])
+    """Return the deviations of R+ and R- at x that a top prescribes, shape (2, n)."""
+    even, odd = top.deviation(base, x)
+    odd = 2 * tan(base.hopper.delta) * odd
+    return np.stack([even + odd, even - odd])
 
 
 def require_admissible(base: Base, top: Top) -> None:

@@ -1,0 +1,247 @@
+"""First crossing of characteristics on the net, and its limit for vanishing spacing.
+
+Breakdown is where two lines of one family first cross: slopes of the stress are infinite there
+while the stress itself is bounded. It shows in the gap in theta between neighbouring lines, taken
+along the lines of the other family; a gap in tau would also vanish at a tangency.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+
+from hopper.arrays import Array
+from hopper.march.net import TAU, THETA, Net, rows
+
+# Rows through whose gaps the crossing of a pair is interpolated, and neighbours of the first pair
+# to cross through whose crossings the first time is: both errors are below that of the net.
+_ROWS, _NEIGHBOURS = 5, 2
+_NEWTON_STEPS = 8
+# Rows behind the first crossing in which its neighbours must have crossed, or never will.
+_PATIENCE = 12
+_SIZES = (64, 128, 256, 512)
+# Quotients of successive changes that count as those of a method of second order, which are 4.
+_ORDER = (2.8, 5.6)
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """Where two characteristics of a family first cross.
+
+    Attributes
+    ----------
+    tau : float
+    theta : float
+        Radians; not negative in a symmetric stress.
+    family : 1 or -1
+        C+ or C-.
+    error : float
+        Of ``tau``.
+    """
+
+    tau: float
+    theta: float
+    family: Literal[1, -1]
+    error: float
+
+
+@dataclass(frozen=True)
+class NetVerdict:
+    """What nets of several spacings say of a crossing.
+
+    ``crossing`` is None if no net shows one, or if the times on the nets do not converge like the
+    square of the spacing (``converging`` False). ``first_tau`` is the earliest on any net.
+    """
+
+    crossing: Crossing | None
+    converging: bool
+    first_tau: float | None
+
+
+@dataclass
+class _Watch:
+    """Gaps of the last rows by pairs of lines, and the crossings found in them.
+
+    Gaps are arrays with the rows gap, tau, theta and family; crossings are (tau, theta, family).
+    ``overdue`` counts the rows behind the first crossing.
+    """
+
+    last: list[Array] = field(default_factory=list)
+    found: dict[int, Array] = field(default_factory=dict)
+    overdue: int = 0
+
+    def see(self, gaps: Array) -> None:
+        """Take in the gaps after the next row."""
+        self.last = [*self.last[1 - _ROWS :], gaps]
+        if len(self.last) == _ROWS:
+            before, after = self.last[_ROWS // 2 - 1][0], self.last[_ROWS // 2][0]
+            for pair in np.flatnonzero((before > 0) & (after <= 0)):
+                through = np.array([each[:, pair] for each in self.last])
+                self.found.setdefault(int(pair), _zero(through))
+
+
+def net_verdict(
+    net: Net, top: Callable[[Array], Array], tau_end: float, tolerance: float, strict: bool
+) -> NetVerdict:
+    """Return the first crossing up to ``tau_end``, by nets of ever smaller spacing.
+
+    The result is extrapolated from the finest two nets; the error is the change against that of
+    the two before. Nets are refined until it is below ``tolerance``.
+
+    Parameters
+    ----------
+    net : Net
+    top : function
+        Of theta / theta_w, shape (m,), returning w of C+ and C-, shape (2, m).
+    tau_end : float
+    tolerance : float
+        Wanted error of tau.
+    strict : bool
+        Whether only times that converge like the square of the spacing count.
+    """
+    seen: list[Array] = []
+    error = np.inf
+    for size in _SIZES:
+        here = first_on_net(net, size, top, tau_end)
+        if here is not None:
+            seen.append(here)
+        elif size > _SIZES[0] and not seen:
+            return NetVerdict(None, True, None)
+        if len(seen) >= 3:
+            error = float(abs(_extrapolated(seen[-2:]) - _extrapolated(seen[-3:-1]))[0])
+            if error < tolerance and _second_order(seen):
+                break
+    if len(seen) < 3 or (strict and not _second_order(seen)):
+        return NetVerdict(None, False, float(min(each[0] for each in seen)))
+    tau, theta, _ = _extrapolated(seen[-2:])
+    crossing = Crossing(float(tau), float(theta), 1 if seen[-1][2] > 0 else -1, error)
+    return NetVerdict(crossing, True, crossing.tau)
+
+
+def first_on_net(
+    net: Net, n: int, top: Callable[[Array], Array], tau_end: float
+) -> Array | None:
+    """Return (tau, theta, family) of the first crossing on the net of ``n`` cells, or None.
+
+    ``top`` as in :func:`net_verdict`.
+    """
+    watch, steps, previous, turns = _Watch(), [], None, 0
+    with np.errstate(all="ignore"):
+        for row in rows(net, n, top):
+            earliest = float(row[TAU].min())
+            if not earliest <= tau_end:
+                break
+            if previous is not None:
+                turns += row.shape[1] > n
+                steps = [*steps[1 - _ROWS :], (previous, row, turns)]
+                if watch.last:
+                    watch.see(_gaps(net, *steps[-1]))
+                elif _out_of_order(previous, row):
+                    for each in steps:
+                        watch.see(_gaps(net, *each))
+                if watch.found and _decided(watch, 2 * n, earliest):
+                    break
+            previous = row
+    return _first(watch.found, 2 * n, tau_end)
+
+
+def _out_of_order(row: Array, following: Array) -> bool:
+    """Whether a point of the shorter row is not between its neighbours of the longer one."""
+    short, long = (row, following) if row.shape < following.shape else (following, row)
+    return not (
+        (short[THETA] > long[THETA, :-1]).all() and (short[THETA] < long[THETA, 1:]).all()
+    )
+
+
+def _gaps(net: Net, row: Array, following: Array, turns: int) -> Array:
+    """Return gap, tau, theta and family of neighbouring lines along those that cross them.
+
+    Shape (4, 2 n): pairs of C-, which C+ crosses, from the right end on, then those of C+. Two
+    rows move all pairs by one place on the loop: ``turns`` such moves are taken back.
+    """
+    short, long = (row, following) if row.shape < following.shape else (following, row)
+    inner, outer = short[[THETA, TAU]], long[[THETA, TAU]]
+    if net.left > 0:
+        outer[0, 0] = 0.0  # the axis itself
+    lower, upper = (outer[:, :-1], inner), (inner, outer[:, 1:])
+    along = (upper, lower) if row is short else (lower, upper)
+    families = []
+    for sign, (low, high) in zip((-1.0, 1.0), along, strict=True):
+        middle = (low + high) / 2
+        gap = high[0] - low[0]
+        families.append(np.stack([gap, middle[1], middle[0], np.full_like(gap, sign)]))
+    return np.roll(np.concatenate([families[0][:, ::-1], families[1]], axis=1), -turns, axis=1)
+
+
+def _zero(through: Array) -> Array:
+    """Return (tau, theta, family) where the gap vanishes between the rows before the middle one.
+
+    ``through``: gap, tau, theta and family in successive rows, shape (_ROWS, 4).
+    """
+    place = np.arange(_ROWS) - _ROWS // 2
+    powers = np.polyfit(place, through[:, :3], _ROWS - 1)
+    before, after = through[_ROWS // 2 - 1, 0], through[_ROWS // 2, 0]
+    guess = after / (before - after)
+    root = guess
+    for _ in range(_NEWTON_STEPS):
+        root -= np.polyval(powers[:, 0], root) / np.polyval(np.polyder(powers[:, 0]), root)
+    if not -1 <= root <= 0:
+        root = guess
+    return np.array([*(np.polyval(powers[:, i], root) for i in (1, 2)), through[_ROWS // 2, 3]])
+
+
+def _decided(watch: _Watch, pairs: int, earliest: float) -> bool:
+    """Whether no later row, from time ``earliest`` on, can change the first crossing."""
+    first = min(watch.found, key=lambda pair: watch.found[pair][0])
+    if earliest <= watch.found[first][0]:
+        return False
+    around = range(-_NEIGHBOURS, _NEIGHBOURS + 1)
+    watch.overdue += 1
+    return all((first + i) % pairs in watch.found for i in around) or watch.overdue > _PATIENCE
+
+
+def _first(found: dict[int, Array], pairs: int, tau_end: float) -> Array | None:
+    """Return the first (tau, theta, family), between the pairs as well, up to ``tau_end``."""
+    found = {pair: each for pair, each in found.items() if each[0] <= tau_end}
+    if not found:
+        return None
+    first = min(found, key=lambda pair: found[pair][0])
+    return lowest(found, first, pairs)
+
+
+def lowest(found: dict[int, Array], first: int, pairs: int) -> Array:
+    """Return the crossing of least tau by a polynomial through neighbours, as far as there are.
+
+    Parameters
+    ----------
+    found : dict
+        (tau, theta, family) by number on a loop of ``pairs``.
+    first : int
+        That of least tau.
+    pairs : int
+    """
+    for reach in range(_NEIGHBOURS, 0, -1):
+        places = range(-reach, reach + 1)
+        if all((first + i) % pairs in found for i in places):
+            values = np.array([found[(first + i) % pairs] for i in places])
+            powers = np.polyfit(places, values, 2 * reach)
+            slope = np.polyder(powers[:, 0])
+            place = 0.0
+            for _ in range(_NEWTON_STEPS):
+                place -= np.polyval(slope, place) / np.polyval(np.polyder(slope), place)
+            if abs(place) <= 1:
+                tau, theta = (np.polyval(powers[:, i], place) for i in (0, 1))
+                return np.array([tau, theta, found[first][2]])
+    return found[first]
+
+
+def _extrapolated(pair: list[Array]) -> Array:
+    """Return the limit of results whose error is four times smaller in the second."""
+    return pair[1] + (pair[1] - pair[0]) / 3
+
+
+def _second_order(seen: list[Array]) -> bool:
+    """Whether the times of the last three nets converge like the square of the spacing."""
+    first, second, third = (each[0] for each in seen[-3:])
+    return bool(_ORDER[0] < (first - second) / (second - third) < _ORDER[1])
