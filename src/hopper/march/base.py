@@ -97,10 +97,15 @@ def base_of(solution: RadialSolution, tilted: bool | None = None) -> Base:
     return Base(solution, bool(tilted))
 
 
+def radial_fields(base: Base, theta: Array) -> tuple[Array, Array]:
+    """Return sigma, exactly even, and psi, exactly odd in ``theta`` (radians, shape (n,))."""
+    sigma, psi, _, _ = base.solution.fields(np.abs(theta))
+    return sigma, np.copysign(1.0, theta) * psi
+
+
 def base_state(base: Base, y: Array) -> BaseState:
     """Return the radial field at points ``y`` of a leg (radians, shape (n,), not 0 in a cone)."""
-    sigma, psi, _, _ = base.solution.fields(np.abs(y))
-    psi = np.copysign(psi, y * psi)
+    sigma, psi = radial_fields(base, y)
     light = 1 / sigma
     slope = tilt(base.hopper, psi) if base.tilted else np.zeros_like(y)
     at = coefficients(base.hopper, y, slope)

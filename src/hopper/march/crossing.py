@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 
 from hopper.arrays import Array
-from hopper.march.net import TAU, THETA, Net, rows
+from hopper.march.net import SLOPES, TAU, THETA, Net, rows
 
 # Rows through whose gaps the crossing of a pair is interpolated, and neighbours of the first pair
 # to cross through whose crossings the first time is: both errors are below that of the net.
@@ -92,9 +92,11 @@ def net_verdict(
     Parameters
     ----------
     net : Net
+        From :func:`hopper.march.net.make_net`.
     top : function
         Of theta / theta_w, shape (m,), returning w of C+ and C-, shape (2, m).
     tau_end : float
+        Time up to which crossings count.
     tolerance : float
         Wanted error of tau.
     strict : bool
@@ -119,18 +121,18 @@ def net_verdict(
     return NetVerdict(crossing, True, crossing.tau)
 
 
-def first_on_net(
-    net: Net, n: int, top: Callable[[Array], Array], tau_end: float
-) -> Array | None:
+def first_on_net(net: Net, n: int, top: Callable[[Array], Array], tau_end: float) -> Array | None:
     """Return (tau, theta, family) of the first crossing on the net of ``n`` cells, or None.
 
     ``top`` as in :func:`net_verdict`.
     """
-    watch, steps, previous, turns = _Watch(), [], None, 0
+    watch, steps, turns = _Watch(), list[tuple[Array, Array, int]](), 0
+    previous: Array | None = None
     with np.errstate(all="ignore"):
         for row in rows(net, n, top):
             earliest = float(row[TAU].min())
-            if not earliest <= tau_end:
+            # Behind a tangency lines lead back in time.
+            if not (earliest <= tau_end and row[SLOPES].min() > 0):
                 break
             if previous is not None:
                 turns += row.shape[1] > n
@@ -149,9 +151,7 @@ def first_on_net(
 def _out_of_order(row: Array, following: Array) -> bool:
     """Whether a point of the shorter row is not between its neighbours of the longer one."""
     short, long = (row, following) if row.shape < following.shape else (following, row)
-    return not (
-        (short[THETA] > long[THETA, :-1]).all() and (short[THETA] < long[THETA, 1:]).all()
-    )
+    return not ((short[THETA] > long[THETA, :-1]).all() and (short[THETA] < long[THETA, 1:]).all())
 
 
 def _gaps(net: Net, row: Array, following: Array, turns: int) -> Array:
@@ -220,6 +220,7 @@ def lowest(found: dict[int, Array], first: int, pairs: int) -> Array:
     first : int
         That of least tau.
     pairs : int
+        Length of the loop.
     """
     for reach in range(_NEIGHBOURS, 0, -1):
         places = range(-reach, reach + 1)

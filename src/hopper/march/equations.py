@@ -117,6 +117,8 @@ def both_families(
 
     Parameters
     ----------
+    hopper : Hopper
+        Of a Mohr-Coulomb material.
     theta : array, shape (n,)
         Radians; not 0 in a cone.
     t, light : array, shape (..., n)

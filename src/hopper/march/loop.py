@@ -43,8 +43,8 @@ class Loop:
 class History:
     """Deviations w and rates w_tau, shapes (m, legs, n), at times ``tau`` (m,), and their end.
 
-    The march ended at the wanted time, at a tangency (its time is then ``tangency_tau``), or where
-    values ceased to be numbers.
+    The march ended at the wanted time, at a tangency (``tangency``: tau, theta), or where values
+    ceased to be numbers.
     """
 
     loop: Loop
@@ -52,7 +52,7 @@ class History:
     w: Array
     rate: Array
     end: End
-    tangency_tau: float | None
+    tangency: tuple[float, float] | None
 
 
 def make_loop(base: Base, n: int, legs: int) -> Loop:
@@ -70,15 +70,30 @@ def make_loop(base: Base, n: int, legs: int) -> Loop:
 
 
 def rate(loop: Loop, w: Array) -> tuple[Array, Array, Array]:
-    """Return w_tau, A and D, each of shape (legs, n); exactly 0 for w = 0."""
+    """Return w_tau, exactly 0 for w = 0, A and D, each of shape (legs, n)."""
+    change, a, d = _free_rate(loop, w)
+    # What leaves a leg enters its partner.
+    change[:, 0] = change[::-1, -1]
+    return change, a, d
+
+
+def corner_defect(loop: Loop, w: Array) -> float:
+    """Return by how much w_tau differs on both sides of the walls, over the largest w_tau.
+
+    Unless it vanishes a kink of the stress leaves the corner of top and wall.
+    """
+    change, _, _ = _free_rate(loop, w)
+    largest = float(np.abs(change).max())
+    return float(np.abs(change[:, 0] - change[::-1, -1]).max()) / largest if largest else 0.0
+
+
+def _free_rate(loop: Loop, w: Array) -> tuple[Array, Array, Array]:
     state = loop.state
     v = w[::-1, ::-1]
     t = np.tan(state.psi + loop.psi_factor * (w - v))
     light = state.light * np.exp(-0.5 * (w + v))
     numerator, a, d = terms(state.at, t, light)
     change = (numerator - (a / state.a) * state.numerator - a * (w @ loop.derivative)) / d
-    # What leaves a leg enters its partner.
-    change[:, 0] = change[::-1, -1]
     return change, a, d
 
 
@@ -100,17 +115,21 @@ def march_loop(loop: Loop, w: Array, tau_end: float) -> History:
     tau, previous = 0.0, (0.0, 1.0)
     times, states, rates = [], [], []
     reach = _COURANT * loop.base.hopper.half_angle / loop.mesh.radius
-    end, tangency = "end", None
+    end: End = "end"
+    tangency = None
     with np.errstate(all="ignore"):
         while True:
             change, a, d = rate(loop, w)
-            margin = float((d / loop.state.d).min())
+            closeness = d / loop.state.d
+            margin = float(closeness.min())
             if not np.isfinite(change).all():
                 end = "unresolved"
                 break
             if margin < _TANGENT:
                 slope = (previous[1] - margin) / (tau - previous[0])
-                end, tangency = "tangency", tau + margin / slope
+                leg, place = np.unravel_index(int(closeness.argmin()), closeness.shape)
+                theta = float(loop.y[place]) * (-1 if leg else 1)
+                end, tangency = "tangency", (tau + margin / slope, theta)
                 break
             times.append(tau)
             states.append(w)

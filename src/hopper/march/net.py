@@ -22,7 +22,7 @@ from hopper.march.equations import both_families, psi_factor, tilt
 # Rows are arrays (8, n): tau, theta, then for C+ and C-: w, the slope of tau, and that of w. Slopes
 # are those by y, which is theta along C+ and -theta along C-.
 TAU, THETA, PLUS, MINUS = 0, 1, 2, 3
-_SLOPE, _SOURCE, _SLOPES = slice(4, 6), slice(6, 8), slice(4, 8)
+SLOPES, _SOURCES, _RATES = slice(4, 6), slice(6, 8), slice(4, 8)
 # Change of w below which a point counts as found, and the largest number of iterations.
 _CHANGE, _ITERATIONS = 1e-12, 10
 # The end of the rows at the axis of a cone, over theta_w: a place for it, from which nothing goes.
@@ -63,15 +63,15 @@ def rows(net: Net, n: int, top: Callable[[Array], Array]) -> Iterator[Array]:
         if net.through:
             plus = np.concatenate([behind, plus[:, 1:]], axis=1)
         corner = 0.5 * (plus + minus) if short is None else short
-        guess = (plus + minus - corner)[_SLOPES]
+        guess = (plus + minus - corner)[_RATES]
         if net.through:
-            guess[:, 0] = corner[_SLOPES, 0]
+            guess[:, 0] = corner[_RATES, 0]
         short = _meet(net, plus, minus, guess)
         yield short
         plus = np.concatenate([short[:, :1], short], axis=1)
         minus = np.concatenate([short, short[:, -1:]], axis=1)
-        guess = (plus + minus - long)[_SLOPES]
-        guess[:, [0, -1]] = long[_SLOPES, :][:, [0, -1]]
+        guess = (plus + minus - long)[_RATES]
+        guess[:, [0, -1]] = long[_RATES, :][:, [0, -1]]
         long = _meet(net, plus, minus, guess, ends=True)
         # What arrives at the axis as C- leaves it as C+, at -theta.
         behind = short[[TAU, THETA, MINUS, PLUS, 5, 4, 7, 6], :1]
@@ -90,12 +90,14 @@ def _meet(net: Net, plus: Array, minus: Array, guess: Array, ends: bool = False)
     for _ in range(_ITERATIONS):
         forth = 0.5 * (plus[4] + point[4])
         back = 0.5 * (minus[5] + point[5])
-        theta = (minus[TAU] - plus[TAU] + forth * plus[THETA] + back * minus[THETA]) / (forth + back)
+        theta = (minus[TAU] - plus[TAU] + forth * plus[THETA] + back * minus[THETA]) / (
+            forth + back
+        )
         if ends:
             theta[0], theta[-1] = net.left, net.right
         way = np.stack([theta - plus[THETA], minus[THETA] - theta])
         tau = plus[TAU] + forth * way[0]
-        found = start + 0.5 * (origin[:, 1] + point[_SOURCE]) * way
+        found = start + 0.5 * (origin[:, 1] + point[_SOURCES]) * way
         if ends:
             tau[0] = minus[TAU, 0] + back[0] * way[1, 0]
             found[0, 0], found[1, -1] = found[1, 0], found[0, -1]

@@ -45,7 +45,10 @@ class _Rates:
 
 @dataclass(frozen=True, eq=False)
 class _Course:
-    """Integrals along a leg, (n,): tau, m, and b exp(that of m); K of the top on its legs (l, n)."""
+    """Integrals along a leg, shape (n,), and K of the top on its legs, (legs, n).
+
+    ``exponent`` is the integral of m over tau, ``through`` that of b exp(exponent).
+    """
 
     tau: Array
     exponent: Array
@@ -72,7 +75,7 @@ def short_waves(base: Base) -> ShortWaves:
 
 
 def threshold_factor(base: Base, top: Top) -> float:
-    """Return by what the slopes of a top in a wedge must be multiplied to be on the verge of breaking.
+    """Return by what the slopes of a top in a wedge are to be multiplied to be about to break.
 
     0 where short waves do not decay, so that all break in the end; inf if none rises.
 

@@ -13,7 +13,7 @@ from scipy.interpolate import CubicSpline
 
 from hopper.arrays import Array
 from hopper.errors import InvalidParameterError, NonPositiveStressError, TangencyError
-from hopper.march.base import Base
+from hopper.march.base import Base, radial_fields
 from hopper.march.equations import tilt
 from hopper.problem import as_angles, is_real
 from hopper.stability.linearisation import tangency_angle
@@ -54,7 +54,7 @@ def linear_psi() -> Top:
     """Return sigma as the radial field's on the axis everywhere, and psi = psi_w x."""
 
     def deviation(base: Base, x: Array) -> tuple[Array, Array]:
-        sigma, psi = _radial(base, x)
+        sigma, psi = radial_fields(base, base.hopper.half_angle * x)
         even = np.log(base.solution.sigma_axis / sigma)
         return even, base.solution.psi_wall * x - psi
 
@@ -70,7 +70,7 @@ def bin_like() -> Top:
 
     def deviation(base: Base, x: Array) -> tuple[Array, Array]:
         s, half_angle = base.hopper.s, base.hopper.half_angle
-        sigma, radial_psi = _radial(base, x)
+        sigma, radial_psi = radial_fields(base, base.hopper.half_angle * x)
         psi = -half_angle * x + (base.solution.psi_wall + half_angle) * x**3
         vertical = 1 - s * np.cos(2 * (psi + half_angle * x))
         return np.log(base.solution.sigma_axis * (1 - s) / vertical / sigma), psi - radial_psi
@@ -160,7 +160,7 @@ def profile(theta: ArrayLike, sigma: ArrayLike, psi: ArrayLike) -> Top:
                 f"the profile ends at theta = {degrees(theta[-1]):.6g} deg: it must end at the "
                 f"wall, half_angle = {degrees(half_angle):.6g} deg"
             )
-        radial_sigma, radial_psi = _radial(base, x)
+        radial_sigma, radial_psi = radial_fields(base, base.hopper.half_angle * x)
         at = half_angle * x
         return splines[0](at) - np.log(radial_sigma), splines[1](at) - radial_psi
 
@@ -199,7 +199,7 @@ def require_admissible(base: Base, top: Top) -> None:
             f"psi = {wrong:.6g} deg at the wall breaks the wall law: it must be "
             f"{degrees(base.solution.psi_wall):.6g} deg there (and its negative at -theta_w)"
         )
-    _, radial_psi = _radial(base, x)
+    _, radial_psi = radial_fields(base, base.hopper.half_angle * x)
     middle = np.arctan(tilt(base.hopper, radial_psi)) if base.tilted else 0 * x
     excess = np.abs(radial_psi + odd - middle) - tangency_angle(base.hopper.delta)
     if excess.max() >= 0:
@@ -210,12 +210,6 @@ def require_admissible(base: Base, top: Top) -> None:
             f"characteristics with the line where it is given: no smooth march starts there",
             base.hopper.half_angle * float(x[worst]),
         )
-
-
-def _radial(base: Base, x: Array) -> tuple[Array, Array]:
-    """Return sigma (even) and psi (odd) of the radial field at x."""
-    sigma, psi, _, _ = base.solution.fields(base.hopper.half_angle * np.abs(x))
-    return sigma, np.where(x < 0, -psi, psi)
 
 
 def _finite(name: str, value: float) -> float:

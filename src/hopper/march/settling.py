@@ -1,0 +1,78 @@
+"""How far down a hopper the stress has settled to the radial field, for good."""
+
+from math import ceil
+
+import numpy as np
+
+from hopper.arrays import Array
+from hopper.march.base import radial_fields, tilt_height
+from hopper.march.fields import deviations, interpolated, stress_of
+from hopper.march.loop import History, Loop, rate
+from hopper.spectral import chebyshev
+
+# Samples per loop time, and angles on each half of the hopper.
+_PER_LOOP, _ANGLES = 64, 40
+# Size of a deviation that counts as infinitesimal, and the part of the largest eigenvalue up to
+# which eigenvalues of a loop count as resolved.
+_SMALL, _RESOLVED = 1e-6, 0.25
+
+
+def loop_time(loop: Loop) -> float:
+    """Return the tau that a wave on the radial field takes from wall to wall."""
+    points = chebyshev.nodes(2 * loop.y.size)
+    slowness = loop.mesh.interpolation(points) @ (loop.state.d / loop.state.a)
+    weights = chebyshev.clenshaw_curtis_weights(points.size)
+    return float(loop.base.hopper.half_angle * (weights @ slowness))
+
+
+def linear_growth(loop: Loop) -> float:
+    """Return the largest growth rate of resolved small deviations, per unit of tau."""
+    shape = loop.legs, loop.y.size
+    columns = []
+    for unit in np.eye(loop.legs * loop.y.size):
+        w = _SMALL * unit.reshape(shape)
+        columns.append((rate(loop, w)[0] - rate(loop, -w)[0]) / (2 * _SMALL))
+    jacobian = np.array(columns).reshape(*shape, *shape)
+    # The first value of a leg is the last one of its partner.
+    jacobian[::-1, -1] += jacobian[:, 0]
+    size = shape[0] * (shape[1] - 1)
+    values = np.linalg.eigvals(jacobian[:, 1:, :, 1:].reshape(size, size))
+    modulus = np.abs(values)
+    return float(values[modulus < _RESOLVED * modulus.max()].real.max())
+
+
+def settled_radius(history: History, tau_end: float, level: float) -> float | None:
+    """Return r / r_top from which on all stresses stay within ``level`` of the radial field's.
+
+    The measure is the largest |T_ij - T0_ij| / sigma0 over the hopper and the components, its last
+    passage of the level counts; norms oscillate with the loop time. None if it is not passed by
+    ``tau_end``.
+    """
+    loop = history.loop
+    base, hopper = loop.base, loop.base.hopper
+    x = np.linspace(0 if loop.legs == 1 else -1, 1, _ANGLES + 1)
+    samples = ceil(_PER_LOOP * tau_end / loop_time(loop)) + 1
+    tau = np.linspace(0, tau_end, samples)
+    even, odd = deviations(loop, interpolated(history, tau), x)
+    _, psi = radial_fields(base, hopper.half_angle * x)
+    radial = stress_of(hopper.s, np.ones_like(psi), psi)
+    now = stress_of(hopper.s, np.exp(even), psi + odd)
+    parts = ["rr", "rt", "tt"] + ["pp"] * hopper.curvature
+    distance = np.max([np.abs(getattr(now, p) - getattr(radial, p)) for p in parts], axis=0)
+    # Tilted time meets each angle at its own depth.
+    passage = np.array([_last_passage(tau, each, level) for each in distance.T])
+    if np.isinf(passage).any():
+        return None
+    return float(np.exp(-passage - tilt_height(base, hopper.half_angle * x)).min())
+
+
+def _last_passage(tau: Array, distance: Array, level: float) -> float:
+    """Return the time after which ``distance`` stays below ``level``; inf if it does not."""
+    beyond = np.flatnonzero(distance >= level)
+    if beyond.size == 0:
+        return 0.0
+    last = int(beyond[-1])
+    if last == tau.size - 1:
+        return np.inf
+    part = (distance[last] - level) / (distance[last] - distance[last + 1])
+    return float(tau[last] + part * (tau[last + 1] - tau[last]))
