@@ -21,8 +21,10 @@ _NEWTON_STEPS = 8
 # Rows behind the first crossing in which its neighbours must have crossed, or never will.
 _PATIENCE = 12
 _SIZES = (64, 128, 256, 512)
-# Quotients of successive changes that count as those of a method of second order, which are 4.
-_ORDER = (2.8, 5.6)
+# Quotients of successive changes that count as those of a method of first or second order.
+_QUOTIENTS = {1: (1.6, 2.5), 2: (2.8, 5.6)}
+# Error relative to tau with which a crossing that involves a kink counts as placed.
+_PLACED = 5e-3
 
 
 @dataclass(frozen=True)
@@ -50,8 +52,8 @@ class Crossing:
 class NetVerdict:
     """What nets of several spacings say of a crossing.
 
-    ``crossing`` is None if no net shows one, or if the times on the nets do not converge like the
-    square of the spacing (``converging`` False). ``first_tau`` is the earliest on any net.
+    ``crossing`` is None if no net shows one, or if the times on the nets do not converge
+    (``converging`` False). ``first_tau`` is the crossing's, or the earliest on any net.
     """
 
     crossing: Crossing | None
@@ -82,12 +84,13 @@ class _Watch:
 
 
 def net_verdict(
-    net: Net, top: Callable[[Array], Array], tau_end: float, tolerance: float, strict: bool
+    net: Net, top: Callable[[Array], Array], tau_end: float, tolerance: float, kinked: bool
 ) -> NetVerdict:
     """Return the first crossing up to ``tau_end``, by nets of ever smaller spacing.
 
-    The result is extrapolated from the finest two nets; the error is the change against that of
-    the two before. Nets are refined until it is below ``tolerance``.
+    The result is extrapolated from the finest two nets, its error is the change against that of the
+    two before. Nets are refined until it is below ``tolerance``. Times converge like the square of
+    the spacing, but only like the spacing where the lines beside a kink are the first to cross.
 
     Parameters
     ----------
@@ -99,26 +102,25 @@ def net_verdict(
         Time up to which crossings count.
     tolerance : float
         Wanted error of tau.
-    strict : bool
-        Whether only times that converge like the square of the spacing count.
+    kinked : bool
+        Whether the top has a kink at the wall; times that do not converge are then no crossing.
     """
     seen: list[Array] = []
-    error = np.inf
     for size in _SIZES:
         here = first_on_net(net, size, top, tau_end)
         if here is not None:
             seen.append(here)
         elif size > _SIZES[0] and not seen:
             return NetVerdict(None, True, None)
-        if len(seen) >= 3:
-            error = float(abs(_extrapolated(seen[-2:]) - _extrapolated(seen[-3:-1]))[0])
-            if error < tolerance and _second_order(seen):
-                break
-    if len(seen) < 3 or (strict and not _second_order(seen)):
-        return NetVerdict(None, False, float(min(each[0] for each in seen)))
-    tau, theta, _ = _extrapolated(seen[-2:])
-    crossing = Crossing(float(tau), float(theta), 1 if seen[-1][2] > 0 else -1, error)
-    return NetVerdict(crossing, True, crossing.tau)
+        order = _order(seen, kinked)
+        if order and _limit(net, seen, order).error < tolerance:
+            break
+    if len(seen) >= 3 and (order or not kinked):
+        crossing = _limit(net, seen, order or 2)
+        # A quotient can be right by chance.
+        if crossing.error < _PLACED * crossing.tau or not kinked:
+            return NetVerdict(crossing, True, crossing.tau)
+    return NetVerdict(None, False, float(min(each[0] for each in seen)))
 
 
 def first_on_net(net: Net, n: int, top: Callable[[Array], Array], tau_end: float) -> Array | None:
@@ -237,12 +239,21 @@ def lowest(found: dict[int, Array], first: int, pairs: int) -> Array:
     return found[first]
 
 
-def _extrapolated(pair: list[Array]) -> Array:
-    """Return the limit of results whose error is four times smaller in the second."""
-    return pair[1] + (pair[1] - pair[0]) / 3
-
-
-def _second_order(seen: list[Array]) -> bool:
-    """Whether the times of the last three nets converge like the square of the spacing."""
+def _order(seen: list[Array], kinked: bool) -> int | None:
+    """Return the order at which the times of the last three nets converge, if they do."""
+    if len(seen) < 3:
+        return None
     first, second, third = (each[0] for each in seen[-3:])
-    return bool(_ORDER[0] < (first - second) / (second - third) < _ORDER[1])
+    quotient = (first - second) / (second - third)
+    orders = (1, 2) if kinked else (2,)
+    return next((p for p in orders if _QUOTIENTS[p][0] < quotient < _QUOTIENTS[p][1]), None)
+
+
+def _limit(net: Net, seen: list[Array], order: int) -> Crossing:
+    """Return the limit of crossings whose error falls like the spacing to the power ``order``."""
+    before, last = (
+        fine + (fine - coarse) / (2**order - 1) for coarse, fine in (seen[-3:-1], seen[-2:])
+    )
+    theta = float(np.clip(last[1], net.left, net.right))
+    family: Literal[1, -1] = 1 if seen[-1][2] > 0 else -1
+    return Crossing(float(last[0]), theta, family, abs(float(last[0] - before[0])))

@@ -18,6 +18,8 @@ from hopper.march.mapped import Mesh, mesh
 _COURANT = 2.0
 # D relative to the radial field's from which on a tangency counts as reached.
 _TANGENT = 1e-3
+# Size of a deviation that counts as infinitesimal.
+_SMALL = 1e-6
 
 End = Literal["end", "tangency", "unresolved"]
 
@@ -95,6 +97,22 @@ def _free_rate(loop: Loop, w: Array) -> tuple[Array, Array, Array]:
     numerator, a, d = terms(state.at, t, light)
     change = (numerator - (a / state.a) * state.numerator - a * (w @ loop.derivative)) / d
     return change, a, d
+
+
+def jacobian(loop: Loop) -> Array:
+    """Return d w_tau / dw at w = 0, shape (m, m), m = legs (n - 1), by central differences.
+
+    The first value of each leg is left out: it is the last one of its partner.
+    """
+    shape = loop.legs, loop.y.size
+    columns = []
+    for unit in np.eye(loop.legs * loop.y.size):
+        w = _SMALL * unit.reshape(shape)
+        columns.append((rate(loop, w)[0] - rate(loop, -w)[0]) / (2 * _SMALL))
+    by_w = np.array(columns).reshape(*shape, *shape)
+    by_w[::-1, -1] += by_w[:, 0]
+    size = shape[0] * (shape[1] - 1)
+    return by_w[:, 1:, :, 1:].reshape(size, size).T
 
 
 def step(loop: Loop, w: Array, first: Array, length: float) -> Array:

@@ -7,14 +7,15 @@ import numpy as np
 from hopper.arrays import Array
 from hopper.march.base import radial_fields, tilt_height
 from hopper.march.fields import deviations, interpolated, stress_of
-from hopper.march.loop import History, Loop, rate
+from hopper.march.loop import History, Loop, jacobian
 from hopper.spectral import chebyshev
 
 # Samples per loop time, and angles on each half of the hopper.
 _PER_LOOP, _ANGLES = 64, 40
-# Size of a deviation that counts as infinitesimal, and the part of the largest eigenvalue up to
-# which eigenvalues of a loop count as resolved.
-_SMALL, _RESOLVED = 1e-6, 0.25
+# Loop times after the last passage of a level in which it must not be passed again.
+_WAIT = 3
+# Part of the largest eigenvalue up to which eigenvalues of a loop count as resolved.
+_RESOLVED = 0.25
 
 
 def loop_time(loop: Loop) -> float:
@@ -27,16 +28,7 @@ def loop_time(loop: Loop) -> float:
 
 def linear_growth(loop: Loop) -> float:
     """Return the largest growth rate of resolved small deviations, per unit of tau."""
-    shape = loop.legs, loop.y.size
-    columns = []
-    for unit in np.eye(loop.legs * loop.y.size):
-        w = _SMALL * unit.reshape(shape)
-        columns.append((rate(loop, w)[0] - rate(loop, -w)[0]) / (2 * _SMALL))
-    jacobian = np.array(columns).reshape(*shape, *shape)
-    # The first value of a leg is the last one of its partner.
-    jacobian[::-1, -1] += jacobian[:, 0]
-    size = shape[0] * (shape[1] - 1)
-    values = np.linalg.eigvals(jacobian[:, 1:, :, 1:].reshape(size, size))
+    values = np.linalg.eigvals(jacobian(loop))
     modulus = np.abs(values)
     return float(values[modulus < _RESOLVED * modulus.max()].real.max())
 
@@ -45,13 +37,14 @@ def settled_radius(history: History, tau_end: float, level: float) -> float | No
     """Return r / r_top from which on all stresses stay within ``level`` of the radial field's.
 
     The measure is the largest |T_ij - T0_ij| / sigma0 over the hopper and the components, its last
-    passage of the level counts; norms oscillate with the loop time. None if it is not passed by
-    ``tau_end``.
+    passage of the level counts. As norms oscillate with the loop time, it must be some loop times
+    before ``tau_end``: None if it is not.
     """
     loop = history.loop
     base, hopper = loop.base, loop.base.hopper
     x = np.linspace(0 if loop.legs == 1 else -1, 1, _ANGLES + 1)
-    samples = ceil(_PER_LOOP * tau_end / loop_time(loop)) + 1
+    loops = tau_end / loop_time(loop)
+    samples = ceil(_PER_LOOP * loops) + 1
     tau = np.linspace(0, tau_end, samples)
     even, odd = deviations(loop, interpolated(history, tau), x)
     _, psi = radial_fields(base, hopper.half_angle * x)
@@ -61,7 +54,7 @@ def settled_radius(history: History, tau_end: float, level: float) -> float | No
     distance = np.max([np.abs(getattr(now, p) - getattr(radial, p)) for p in parts], axis=0)
     # Tilted time meets each angle at its own depth.
     passage = np.array([_last_passage(tau, each, level) for each in distance.T])
-    if np.isinf(passage).any():
+    if passage.max() > tau_end * (1 - _WAIT / loops):
         return None
     return float(np.exp(-passage - tilt_height(base, hopper.half_angle * x)).min())
 
