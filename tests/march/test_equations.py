@@ -144,7 +144,10 @@ def test_derivatives_of_ray_slopes(tilted):
     theta, t, light = np.array([0.2, 0.5]), np.array([0.1, -0.2]), np.array([0.7, 1.6])
     at = coefficients(hopper, theta, tilt(hopper, 0.5 * t) if tilted else 0 * t)
     slopes, step = ray_slopes(at, t, light), 1e-30
-    by_t, by_light = ray_slopes(at, t + 1j * step, light), ray_slopes(at, t, light * (1 + 1j * step))
+    by_t, by_light = (
+        ray_slopes(at, t + 1j * step, light),
+        ray_slopes(at, t, light * (1 + 1j * step)),
+    )
     np.testing.assert_allclose(slopes.tau_by_t, by_t.tau.imag / step, rtol=1e-13)
     np.testing.assert_allclose(slopes.w_by_t, by_t.w.imag / step, rtol=1e-13)
     np.testing.assert_allclose(slopes.w_by_light, by_light.w.imag / step, rtol=1e-13)

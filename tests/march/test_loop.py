@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hopper.evidence.motion import stress
-from hopper.march.base import radial_fields
+from hopper.march.base import base_of, radial_fields, tilt_height
 from hopper.march.fields import (
     deviations,
     interpolated,
@@ -17,7 +17,7 @@ from hopper.march.fields import (
 )
 from hopper.march.loop import corner_defect, jacobian, make_loop, march_loop, rate, step
 from hopper.march.mapped import mesh
-from hopper.march.tops import bump_of_psi, bump_of_sigma, one_sided_bump, scaled
+from hopper.march.tops import Top, bump_of_psi, bump_of_sigma, one_sided_bump, scaled
 from hopper.stability.collocation import half_matrix
 from hopper.stability.modes import linear_stability
 from hopper.yield_conditions import MOHR_COULOMB
@@ -58,9 +58,7 @@ def test_radial_field_is_balanced_exactly(case, legs):
 def test_published_fields(case):
     """Table of fields at tau = .25; two meshes say how far ours can be from it."""
     under, top, tau = base_of_case(case), top_of_case(case), case["tau"]
-    coarse, fine = (
-        published(under, on_loop(under, top, points, tau), tau) for points in (96, 128)
-    )
+    coarse, fine = (published(under, on_loop(under, top, points, tau), tau) for points in (96, 128))
     error = np.abs(fine - coarse).max()
     assert error < 3e-6
     expected = [case[key] for key in ("sigma_axis", "sigma_half", "sigma_wall", "psi_half")]
@@ -81,6 +79,28 @@ def test_published_fields_without_symmetry():
     sigma, _ = radial_fields(under, under.hopper.half_angle * walls)
     np.testing.assert_allclose(sigma * np.exp(even), [0.70668349, 0.77317567], atol=3e-8)
     np.testing.assert_allclose(odd, 0, atol=1e-14)
+
+
+@pytest.mark.parametrize("case", HOPPERS[:2])
+def test_tilted_time_shows_the_same_stress(case):
+    """A march, met on r = r_top exp(-.1 - h), goes on from there in tilted time."""
+    under = base(*case)
+    tilted = base_of(under.solution, tilted=True)
+    history = on_loop(under, bump_of_sigma(0.1), 96, 0.4)
+
+    def at(x, tau):
+        """Deviations on the surface tau + h."""
+        times = tau + tilt_height(tilted, under.hopper.half_angle * x)
+        points = [
+            deviations(history.loop, state_at(history, time), np.array([place]))
+            for place, time in zip(x, times, strict=True)
+        ]
+        return np.array(points)[:, :, 0].T
+
+    assert np.ptp(tilt_height(tilted, under.hopper.half_angle * X)) > 0.02
+    later = on_loop(tilted, Top("met", True, lambda _, x: tuple(at(x, 0.1))), 96, 0.1)
+    found = np.stack(deviations(later.loop, later.w[-1], X))
+    assert np.abs(found - at(X, 0.2)).max() < 2e-7
 
 
 def test_two_legs_of_a_symmetric_top_are_one():

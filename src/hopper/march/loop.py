@@ -16,7 +16,8 @@ from hopper.march.mapped import Mesh, mesh
 
 # Step times speed times the largest eigenvalue of the derivative. Runge-Kutta's limit is 2.8.
 _COURANT = 2.0
-# D relative to the radial field's from which on a tangency counts as reached.
+# D or A relative to the radial field's from which on a tangency, with the lines of constant tau or
+# of constant theta, counts as reached.
 _TANGENT = 1e-3
 # Size of a deviation that counts as infinitesimal.
 _SMALL = 1e-6
@@ -138,7 +139,7 @@ def march_loop(loop: Loop, w: Array, tau_end: float) -> History:
     with np.errstate(all="ignore"):
         while True:
             change, a, d = rate(loop, w)
-            closeness = d / loop.state.d
+            closeness = np.minimum(d / loop.state.d, a / loop.state.a)
             margin = float(closeness.min())
             if not np.isfinite(change).all():
                 end = "unresolved"

@@ -157,7 +157,8 @@ def _course(base: Base, top: Top) -> _Course:
         tau=_integral(rates.time, y),
         exponent=exponent,
         through=_integral(rates.steepening * np.exp(exponent) * rates.time, y),
-        initial=np.gradient(legs, y, axis=1, edge_order=2) / rates.time,
+        # A constant subtracted first leaves no rounding where there is no slope.
+        initial=np.gradient(legs - legs[:, :1], y, axis=1, edge_order=2) / rates.time,
     )
 
 

@@ -5,7 +5,7 @@ Tops take x = theta / theta_w and are given at r = r_top, or where a tilted time
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import degrees, tan
+from math import degrees, pi, tan
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -201,11 +201,13 @@ def require_admissible(base: Base, top: Top) -> None:
         )
     _, radial_psi = radial_fields(base, base.hopper.half_angle * x)
     middle = np.arctan(tilt(base.hopper, radial_psi)) if base.tilted else 0 * x
-    excess = np.abs(radial_psi + odd - middle) - tangency_angle(base.hopper.delta)
+    psi, limit = radial_psi + odd, tangency_angle(base.hopper.delta)
+    # Beyond pi/2 - eta a characteristic is tangent to the lines theta = const.
+    excess = np.maximum(np.abs(psi - middle) - limit, np.abs(psi) - (pi / 2 - limit))
     if excess.max() >= 0:
         worst = int(np.argmax(excess))
         raise TangencyError(
-            f"psi = {degrees(radial_psi[worst] + odd[worst]):.6g} deg of the top at theta = "
+            f"psi = {degrees(psi[worst]):.6g} deg of the top at theta = "
             f"{degrees(base.hopper.half_angle * x[worst]):.6g} deg is beyond the tangency of "
             f"characteristics with the line where it is given: no smooth march starts there",
             base.hopper.half_angle * float(x[worst]),
