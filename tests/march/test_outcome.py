@@ -77,6 +77,7 @@ def test_a_tangency_comes_first_in_a_wide_wedge():
     assert found.trusted_tau < found.breakdown.tau
 
 
+@pytest.mark.soak
 def test_a_march_in_tilted_time():
     under = base(*BEYOND)
     found = march(under, bump_of_sigma(0.2), 1.2)
@@ -192,6 +193,7 @@ def test_growth_and_loop_time_of_a_loop(case):
     assert linear_growth(loop) == pytest.approx(highest, abs=1e-3)
 
 
+@pytest.mark.soak
 def test_tilted_time_shows_the_same_crossing():
     """A march, met on r = r_top exp(-.01 - h), crosses at the same place in tilted time."""
     under = base("wedge", 45, 15, 0.2)

@@ -113,7 +113,7 @@ def test_profile_without_symmetry():
         (lambda t, s, p: (t[::-1], s, p), InvalidParameterError, "increasing"),
         (lambda t, s, p: (t, s[1:], p), InvalidParameterError, "one length"),
         (lambda t, s, p: (t[1:], s[1:], p[1:]), InvalidParameterError, "begins at theta = 0"),
-        (lambda t, s, p: (0.9 * t, s, p), InvalidParameterError, "must end at the wall"),
+        (lambda t, s, p: (0.9 * t, s, p), InvalidParameterError, "must reach the walls"),
         (lambda t, s, p: (t, s, p + 3 * t * (t[-1] - t) / t[-1] ** 2), TangencyError, "beyond"),
     ],
 )

@@ -55,7 +55,7 @@ def linear_mode(matrix, eigenvalue: complex, physical: bool):
     values, vectors = np.linalg.eig(matrix)
     which = int(np.argmin(np.abs(values - eigenvalue)))
     parts = vectors[:m, which], np.append(vectors[m:, which], 0)
-    parities = ("even", "odd") if physical else ("odd", "even")
+    parities: tuple[chebyshev.Parity, ...] = ("even", "odd") if physical else ("odd", "even")
 
     def at(under: Base, x, tau: float = 0.0):
         size = np.exp(values[which] * tau) / np.abs(parts[0]).max()

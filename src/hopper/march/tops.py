@@ -18,9 +18,9 @@ from hopper.march.equations import tilt
 from hopper.problem import as_angles, is_real
 from hopper.stability.linearisation import tangency_angle
 
-# Deviations of psi (radians) from the wall law or symmetry that count as rounding of the data.
-_ROUNDING = 1e-8
-# Points at which a top is checked, on each half.
+# Differences (radians, or relative) that count as rounding of given data.
+_ROUNDING = 1e-6
+# Points at which a top is checked.
 _SAMPLES = 400
 
 # Returns the deviations of log sigma and psi at x, each of shape (n,).
@@ -123,6 +123,32 @@ def profile(theta: ArrayLike, sigma: ArrayLike, psi: ArrayLike) -> Top:
     NonPositiveStressError
         If sigma is not positive.
     """
+    theta, sigma, psi, half = _whole_profile(theta, sigma, psi)
+    splines = CubicSpline(theta, np.log(sigma)), CubicSpline(theta, psi)
+    symmetric = half or bool(
+        np.allclose(theta, -theta[::-1], rtol=0, atol=_ROUNDING)
+        and np.allclose(sigma, sigma[::-1], rtol=_ROUNDING, atol=0)
+        and np.allclose(psi, -psi[::-1], rtol=0, atol=_ROUNDING)
+    )
+
+    def deviation(base: Base, x: Array) -> tuple[Array, Array]:
+        half_angle = base.hopper.half_angle
+        if max(abs(theta[0] + half_angle), abs(theta[-1] - half_angle)) > _ROUNDING:
+            raise InvalidParameterError(
+                f"the profile reaches from {degrees(theta[0]):.6g} to {degrees(theta[-1]):.6g} "
+                f"deg: it must reach the walls, half_angle = {degrees(half_angle):.6g} deg"
+            )
+        at = half_angle * x
+        radial_sigma, radial_psi = radial_fields(base, at)
+        return splines[0](at) - np.log(radial_sigma), splines[1](at) - radial_psi
+
+    return Top("profile", symmetric, deviation)
+
+
+def _whole_profile(
+    theta: ArrayLike, sigma: ArrayLike, psi: ArrayLike
+) -> tuple[Array, Array, Array, bool]:
+    """Return checked arrays of a profile from wall to wall, and whether half of it was given."""
     theta, sigma, psi = (
         as_angles(name, values)
         for name, values in (("theta", theta), ("sigma", sigma), ("psi", psi))
@@ -146,25 +172,7 @@ def profile(theta: ArrayLike, sigma: ArrayLike, psi: ArrayLike) -> Top:
             )
         theta = np.concatenate([-theta[:0:-1], theta])
         sigma, psi = np.concatenate([sigma[:0:-1], sigma]), np.concatenate([-psi[:0:-1], psi])
-    splines = CubicSpline(theta, np.log(sigma)), CubicSpline(theta, psi)
-    symmetric = half or bool(
-        np.allclose(theta, -theta[::-1], rtol=0, atol=_ROUNDING)
-        and np.allclose(sigma, sigma[::-1], rtol=_ROUNDING, atol=0)
-        and np.allclose(psi, -psi[::-1], rtol=0, atol=_ROUNDING)
-    )
-
-    def deviation(base: Base, x: Array) -> tuple[Array, Array]:
-        half_angle = base.hopper.half_angle
-        if max(abs(theta[0] + half_angle), abs(theta[-1] - half_angle)) > _ROUNDING:
-            raise InvalidParameterError(
-                f"the profile ends at theta = {degrees(theta[-1]):.6g} deg: it must end at the "
-                f"wall, half_angle = {degrees(half_angle):.6g} deg"
-            )
-        radial_sigma, radial_psi = radial_fields(base, base.hopper.half_angle * x)
-        at = half_angle * x
-        return splines[0](at) - np.log(radial_sigma), splines[1](at) - radial_psi
-
-    return Top("profile", symmetric, deviation)
+    return theta, sigma, psi, half
 
 
 def riemann_deviation(base: Base, top: Top, x: Array) -> Array:
