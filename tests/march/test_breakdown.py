@@ -33,8 +33,9 @@ BREAKDOWN = REFERENCE["breakdown"]
 # The shortest ones of either geometry and either kind of data.
 SHORT = [BREAKDOWN[i] for i in (2, 10, 14)]
 LONG = [case for case in BREAKDOWN if case not in SHORT]
-# A crossing of C+ just behind the axis, where the loop does not resolve the focused wave.
-BEHIND_AXIS = BREAKDOWN[9]
+# A crossing of C+ just behind the axis, where the loop does not resolve the focused wave; and one
+# half a loop after such a focus. Nets of other spacings are the second way there.
+BEHIND_AXIS, AFTER_FOCUS = BREAKDOWN[9], BREAKDOWN[11]
 
 
 def verdict(under, top, tau_end, kinked=False, tolerance=1e-6):
@@ -74,19 +75,28 @@ def test_all_published_crossings(case):
     rays = crossing_of_rays(base_of_case(case), top_of_case(case), 1.05 * case["tau_b"])
     assert rays is not None
     assert rays.family == found.family
-    assert rays.error < 2e-2
+    assert rays.error < (0.06 if case is AFTER_FOCUS else 1e-3)
     assert rays.tau == pytest.approx(found.tau, abs=rays.error + found.error)
 
 
-def test_error_covers_what_a_finer_net_says(monkeypatch):
-    case = SHORT[2]
-    under, top = base_of_case(case), top_of_case(case)
-    found = verdict(under, top, 0.05).crossing
+@pytest.mark.parametrize(
+    "case",
+    [
+        SHORT[2],
+        pytest.param(BEHIND_AXIS, marks=pytest.mark.soak),
+        pytest.param(AFTER_FOCUS, marks=pytest.mark.soak),
+    ],
+    ids=name_of_case,
+)
+def test_error_covers_what_other_nets_say(case, monkeypatch):
+    under, top, tau_end = base_of_case(case), top_of_case(case), 1.2 * case["tau_b"]
+    found = verdict(under, top, tau_end).crossing
     monkeypatch.setattr(crossing, "_SIZES", (96, 192, 384))
-    finer = verdict(under, top, 0.05, tolerance=0.0).crossing
+    other = verdict(under, top, tau_end, tolerance=0.0).crossing
     assert found is not None
-    assert finer is not None
-    assert abs(found.tau - finer.tau) < found.error + finer.error
+    assert other is not None
+    assert abs(found.tau - other.tau) < found.error + other.error
+    assert other.theta == pytest.approx(found.theta, abs=3e-3 * under.hopper.half_angle)
 
 
 @pytest.mark.parametrize(

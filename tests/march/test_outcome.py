@@ -5,7 +5,7 @@ from math import exp, log
 import numpy as np
 import pytest
 
-from hopper.errors import InvalidParameterError
+from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.march.base import base_of, radial_fields, tilt_height
 from hopper.march.fields import deviations, state_at, stress_of
 from hopper.march.loop import make_loop
@@ -174,6 +174,13 @@ def test_a_focused_kink_is_no_crossing():
     assert found.breakdown is None
     assert found.trusted_tau < 0.3
     assert all(each.radius is None for each in found.settled)
+
+
+def test_a_rough_top_is_refused():
+    """log sigma with a step of 1/10."""
+    step = Top("step", True, lambda _, x: (0.1 * (np.abs(x) > 0.53), 0 * x))
+    with pytest.raises(ConvergenceError, match="smoother top"):
+        march(base("wedge", 50, 10, 0.1), step, 0.05)
 
 
 def test_an_unstable_hopper_never_settles():

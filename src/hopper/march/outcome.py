@@ -1,4 +1,8 @@
-"""What becomes of a stress on its way down a hopper: it breaks down, or settles."""
+"""What becomes of a stress on its way down a hopper: it breaks down, or settles.
+
+Two ways to break down are watched: crossings on the nets, tangencies on the loop. sigma > 0 is no
+third: its logarithm is marched; gravity drives a light stress up again, or into a tangency.
+"""
 
 from dataclasses import dataclass
 from math import exp
@@ -8,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hopper.arrays import Array
-from hopper.errors import InvalidParameterError
+from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.march.base import Base, radial_fields, tilt_height
 from hopper.march.crossing import Crossing, net_verdict
 from hopper.march.fields import deviations, interpolated, momentum_residual, state_at
@@ -165,6 +169,8 @@ def march(
         If the depth is not positive or too large, or the top breaks the wall law or symmetry.
     TangencyError
         If the top is beyond the tangency.
+    ConvergenceError
+        If the top is too rough for the finest mesh.
     """
     if not (is_real(tau_end) and 0 < tau_end <= _DEEPEST):
         raise InvalidParameterError(
@@ -268,6 +274,11 @@ def _on_two_meshes(
         finer = _history(base, top, points, stop)
         finer_tau, finer_error = _differences(fine, finer, x)
         coarse, fine, tau, error = fine, finer, finer_tau, finer_error
+    if not error[0] <= _TRUSTED:
+        raise ConvergenceError(
+            f"the top is not resolved by {fine.loop.y.size} points: with fewer of them it differs by "
+            f"{error[0]:.1e} in log sigma or psi; give a smoother top"
+        )
     return coarse, fine, tau, error
 
 

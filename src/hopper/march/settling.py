@@ -38,7 +38,8 @@ def settled_radius(history: History, tau_end: float, level: float) -> float | No
 
     The measure is the largest |T_ij - T0_ij| / sigma0 over the hopper and the components, its last
     passage of the level counts. As norms oscillate with the loop time, it must be some loop times
-    before ``tau_end``: None if it is not.
+    before ``tau_end``: None if it is not. In a cone a kink that is focused on the axis has a
+    logarithmic peak there: a level that only the peak touches is passed sooner on coarser meshes.
     """
     loop = history.loop
     base, hopper = loop.base, loop.base.hopper
