@@ -32,6 +32,9 @@ _TRUSTED = 0.01
 # Part of the way to a breakdown on which the fields are to have the wanted error: no mesh resolves
 # its end.
 _RESOLVABLE = 0.8
+# Part of the way to a tangency to which the march must be trusted for it to be real: unresolved
+# waves close to a crossing make tangencies of their own.
+_NEARLY = 0.98
 _SAMPLES, _ANGLES, _RESIDUALS = 400, 40, 5
 # Error wanted of the breakdown's tau.
 _BREAKDOWN = 1e-5
@@ -183,10 +186,10 @@ def march(
     kind, stop, breakdown = _on_nets(base, top, float(tau_end), kinked)
     wanted = max(tolerance, _KINKED) if kinked else tolerance
     coarse, fine, tau, error = _on_two_meshes(base, top, stop, wanted, stop < tau_end)
-    tangency = _tangency(coarse, fine)
+    trusted = float(tau[error <= _TRUSTED][-1])
+    tangency = _tangency(coarse, fine, trusted)
     if tangency is not None:
         kind, breakdown = "tangency", tangency
-    trusted = float(tau[error <= _TRUSTED][-1])
     for_good = linear_growth(make_loop(base, _SIZES[0], fine.loop.legs)) < 0
     resolved = trusted if kind is None else _RESOLVABLE * trusted
     times = np.linspace(0, resolved, _RESIDUALS + 1)[1:]
@@ -276,7 +279,7 @@ def _on_two_meshes(
         coarse, fine, tau, error = fine, finer, finer_tau, finer_error
     if not error[0] <= _TRUSTED:
         raise ConvergenceError(
-            f"the top is not resolved by {fine.loop.y.size} points: with fewer of them it differs by "
+            f"the top is not resolved by {fine.loop.y.size} points: with fewer it differs by "
             f"{error[0]:.1e} in log sigma or psi; give a smoother top"
         )
     return coarse, fine, tau, error
@@ -291,11 +294,13 @@ def _differences(coarse: History, fine: History, x: Array) -> tuple[Array, Array
     return tau, np.maximum.accumulate(np.abs(one - other).max(axis=(0, 2)))
 
 
-def _tangency(coarse: History, fine: History) -> Breakdown | None:
-    """Return the tangency that ends the march on both meshes, if one does."""
+def _tangency(coarse: History, fine: History, trusted: float) -> Breakdown | None:
+    """Return the tangency that ends the march on both meshes, if one does while they agree."""
     if coarse.tangency is None or fine.tangency is None:
         return None
     tau, theta = fine.tangency
+    if trusted < _NEARLY * tau:
+        return None
     theta = abs(theta) if fine.loop.legs == 1 else theta
     return _breakdown(fine.loop.base, tau, abs(tau - coarse.tangency[0]), theta)
 
