@@ -178,7 +178,7 @@ def test_a_focused_kink_is_no_crossing():
 
 def test_a_rough_top_is_refused():
     """log sigma with a step of 1/10."""
-    step = Top("step", True, lambda _, x: (0.1 * (np.abs(x) > 0.53), 0 * x))
+    step = Top("step", True, lambda _, x: (np.where(np.abs(x) > 0.53, 0.1, 0.0), 0 * x))
     with pytest.raises(ConvergenceError, match="smoother top"):
         march(base("wedge", 50, 10, 0.1), step, 0.05)
 

@@ -25,6 +25,8 @@ _SIZES = (64, 128, 256, 512)
 _QUOTIENTS = {1: (1.6, 2.5), 2: (2.8, 5.6)}
 # Error relative to tau with which a crossing that involves a kink counts as placed.
 _PLACED = 5e-3
+# Least error of an extrapolation, over the last change of what is extrapolated.
+_LEAST = 1e-3
 
 
 @dataclass(frozen=True)
@@ -89,8 +91,9 @@ def net_verdict(
     """Return the first crossing up to ``tau_end``, by nets of ever smaller spacing.
 
     The result is extrapolated from the finest two nets, its error is the change against that of the
-    two before. Nets are refined until it is below ``tolerance``. Times converge like the square of
-    the spacing, but only like the spacing where the lines beside a kink are the first to cross.
+    two before. Nets are refined until it is below ``tolerance``; two in a row that see no crossing
+    mean that there is none. Times converge like the square of the spacing, but only like the
+    spacing where the lines beside a kink are the first to cross.
 
     Parameters
     ----------
@@ -106,11 +109,13 @@ def net_verdict(
         Whether the top has a kink at the wall; times that do not converge are then no crossing.
     """
     seen: list[Array] = []
+    missed = 0
     for size in _SIZES:
         here = first_on_net(net, size, top, tau_end)
         if here is not None:
             seen.append(here)
-        elif size > _SIZES[0] and not seen:
+        missed = 0 if here is not None else missed + 1
+        if missed == 2:
             return NetVerdict(None, True, None)
         order = _order(seen, kinked)
         if order and _limit(net, seen, order).error < tolerance:
@@ -255,5 +260,8 @@ def _limit(net: Net, seen: list[Array], order: int) -> Crossing:
         fine + (fine - coarse) / (2**order - 1) for coarse, fine in (seen[-3:-1], seen[-2:])
     )
     theta = float(np.clip(last[1], net.left, net.right))
+    change = abs(float(last[0] - before[0]))
+    # Two extrapolations can agree by chance.
+    error = max(change, _LEAST * abs(float(seen[-1][0] - seen[-2][0])))
     family: Literal[1, -1] = 1 if seen[-1][2] > 0 else -1
-    return Crossing(float(last[0]), theta, family, abs(float(last[0] - before[0])))
+    return Crossing(float(last[0]), theta, family, error)
