@@ -5,33 +5,59 @@
 # make bench    measure the speed figures   make lock   resolve the dependencies anew (needs uv)
 # make figures/fig_3_1.png                  build one figure
 # make cluster  the environment with Snakemake's SLURM executor; docs/cluster.md tells more
+# make slurm    build every figure with it
 # make check    compare artifacts and figures with what is stored in tests/figures
 # make references                           store them anew, after a deliberate change
+# make CONFIG=my.yaml, make report CONFIG=my.yaml: with the numbers of another file
 
 PYTHON ?= python3
 BIN := .venv/bin
-PIP := $(BIN)/python -m pip install -qq --disable-pip-version-check --require-hashes --no-build-isolation
-export OPENBLAS_NUM_THREADS ?= 1
+PIP := $(BIN)/python -m pip install -qq --disable-pip-version-check --no-user --require-hashes --no-build-isolation
+# The configuration of a run with --configfile or CONFIG, which left it there.
+RECORD := results/configuration.yaml
+ifneq ($(origin CONFIG), command line)
+override CONFIG :=
+endif
+OTHER := $(if $(CONFIG),"$(CONFIG)")
+SNAKEMAKE := $(BIN)/python -m snakemake $(if $(CONFIG),--configfile $(OTHER))
+AGAIN := $(if $(CONFIG),,$(addprefix --configfile ,$(wildcard $(RECORD))))
+WORKFLOW := PYTHONPATH=scripts $(BIN)/python -m hopper_workflow
 
+# What a user's shell has set for other projects: scripts/hopper_workflow/surroundings.py keeps the same from jobs.
+unexport $(filter-out PYTHONDONTWRITEBYTECODE PYTHONPYCACHEPREFIX PYTHONUNBUFFERED MPLCONFIGDIR, $(filter \
+    PYTHON% MPL% MATPLOTLIBRC% NPY_% NUMPY_% SCIPY_% OPENBLAS_% GOTO_% OMP_% GOMP_% KMP_% MKL_% BLIS_% VECLIB_% \
+    NUMEXPR_% XARRAY_% HDF5_% NETCDF% NC_% GIT_DIR% GIT_WORK_TREE% GIT_INDEX_FILE% SNAKEMAKE_% BASH_ENV% SHELLOPTS% BASHOPTS% CDPATH% \
+    SOURCE_DATE_EPOCH% GLIBC_TUNABLES%, $(.VARIABLES)))
+export PYTHONUTF8 := 1
+export OPENBLAS_NUM_THREADS := 1
+# Snakemake asks for its user's name and keeps caches at home: a container may have neither.
+export LOGNAME ?= nobody
+ifneq ($(shell test -w "$${HOME:-/none}" && echo yes),yes)
+export HOME := $(CURDIR)/.venv/home
+endif
+
+# Goals in the order given, also with -j: Snakemake runs jobs side by side.
+.NOTPARALLEL:
 .PHONY: figures resume test check references lint soak reliability bench gallery lock clean FORCE
 
 figures: .venv/run.stamp
-	@$(BIN)/python -m snakemake
+	@$(SNAKEMAKE)
 
 # Snakemake locks a directory while it works; a run that was killed leaves the lock behind.
 resume: .venv/run.stamp
-	@$(BIN)/python -m snakemake --unlock
-	@$(BIN)/python -m snakemake
+	@$(WORKFLOW).live
+	@$(SNAKEMAKE) $(AGAIN)
 
 figures/%: .venv/run.stamp FORCE
-	@$(BIN)/python -m snakemake $@
+	@$(SNAKEMAKE) $@
 
 test: lint
 	@$(BIN)/python -m pytest -n 2 --dist worksteal
 
 # The HTML report opens offline as fig_comparison_basic.html.
 CHECKS := results/figure_checks
-check: figures .venv/test.stamp
+check: .venv/test.stamp
+	@$(SNAKEMAKE) $(AGAIN)
 	@$(BIN)/python -m pytest tests/figures -n 2 --mpl --mpl-results-path=$(CHECKS) --mpl-generate-summary=html,basic-html
 
 references: figures .venv/test.stamp
@@ -50,40 +76,43 @@ lint: .venv/test.stamp
 
 # Are all results and logs, byte for byte, what the jobs wrote? What is not is named.
 verify: .venv/run.stamp
-	@PYTHONPATH=scripts $(BIN)/python -m publish.verify
+	@$(WORKFLOW).publish.verify $(OTHER)
 
 report: .venv/run.stamp
-	@PYTHONPATH=scripts $(BIN)/python -m publish.report
+	@$(WORKFLOW).publish.report $(OTHER)
 
 crate: .venv/run.stamp
-	@PYTHONPATH=scripts $(BIN)/python -m publish.crate
+	@$(WORKFLOW).publish.crate $(OTHER)
 
 .PHONY: sbom audit
 
 sbom: .venv/test.stamp
-	@PYTHONPATH=scripts $(BIN)/python -m publish.sbom
+	@$(WORKFLOW).publish.sbom
 
 # Exit code 1 (of make: 2) for known vulnerabilities; without pip-audit or network it says so and ends with 0.
 audit: .venv/run.stamp
-	@PYTHONPATH=scripts $(BIN)/python -m publish.audit
+	@$(WORKFLOW).publish.audit
 
 # Opens results/report.html in a headless Chromium.
 test-report: .venv/test.stamp
 	@HOPPER_REPORT=results/report.html $(BIN)/python -m pytest tests/workflow/test_browser.py
 
 # The long tests of reliability, and what all tests of it find as a page.
-RELIABILITY := artifacts corruption interruptions mutated_configurations processors supply_chain
+RELIABILITY := artifacts corruption interruptions mutated_configurations processors supply_chain surroundings
 soak: .venv/test.stamp
 	@$(BIN)/python -m pytest -m soak
 
 reliability: .venv/test.stamp .venv/cluster.stamp
 	@rm -rf .reliability
-	@$(BIN)/python -m pytest -m '' $(RELIABILITY:%=tests/workflow/test_%.py) tests/slurm
+	@$(BIN)/python -m pytest -m '' tests/radial/test_coverage.py $(RELIABILITY:%=tests/workflow/test_%.py) tests/slurm
 	@$(BIN)/python -m tests.reliability > docs/reliability.md
 
 # On a SLURM of its own, which it installs and starts: Debian, root, some ten minutes.
-.PHONY: cluster test-slurm requests
+.PHONY: cluster slurm test-slurm requests
 cluster: .venv/cluster.stamp
+
+slurm: .venv/cluster.stamp
+	@$(SNAKEMAKE) --workflow-profile profiles/slurm
 
 test-slurm: .venv/test.stamp .venv/cluster.stamp
 	@$(BIN)/python -m pytest -m slurm tests/slurm
@@ -102,14 +131,21 @@ gallery: figures
 clean:
 	rm -rf results figures/*.png figures/*.pdf logs .snakemake
 
-# The environment: build tools first, so that nothing is fetched beyond the hashed locks.
-.venv/run.stamp: requirements-build.lock requirements.lock pyproject.toml
+# An environment knows its place and its Python: moved, copied, or without that Python it is made anew.
+.venv/place: FORCE
+	@test "$$(cat $@ 2>&1)" = "$$(pwd -P)" && $(BIN)/python -Ic 'import pip' 2>/dev/null || \
+	  { rm -rf .venv && mkdir .venv && pwd -P > $@; }
+
+# Build tools first, so that nothing is fetched beyond the hashed locks.
+.venv/run.stamp: .venv/place requirements-build.lock requirements.lock pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.version_info >= (3, 11) or sys.exit("Python 3.11 or newer is needed: make PYTHON=...")'
 	@echo "Setting up .venv from requirements.lock (about a minute)"
 	@$(PYTHON) -m venv .venv
+	@elsewhere=$$($(BIN)/python -m pip config list | grep -E '[.](target|prefix|root|python|dry-run)=' | tr '\n' ' '); \
+	  test -z "$$elsewhere" || { echo "pip is configured to install elsewhere: leave out $$elsewhere" >&2; exit 1; }
 	@$(PIP) -r requirements-build.lock
 	@$(PIP) -r requirements.lock
-	@$(BIN)/python -m pip install -qq --disable-pip-version-check --no-deps --no-build-isolation -e .
+	@$(BIN)/python -m pip install -qq --disable-pip-version-check --no-user --no-deps --no-build-isolation -e .
 	@touch $@
 
 # cffconvert brings the schema of CITATION.cff; what it needs itself is too old for the other tools.

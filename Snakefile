@@ -32,3 +32,14 @@ rule all:
     input:
         expand("figures/{figure}.{suffix}", figure=FIGURES, suffix=["png", "pdf"]),
         LEDGER,
+
+
+# Of one's own command line only: a host of this workflow has other targets.
+if not workflow.modifier.skip_configfile:
+    outputs = [str(file) for rule in workflow.rules for file in rule.output]
+    if problem := targets.missing(sys.argv[1:], outputs):
+        raise WorkflowError(problem)
+
+
+# Snakemake puts the folders of a module's files first on the path of its host.
+sys.path[:] = [folder for folder in sys.path if folder not in {str(ROOT), str(HERE)}]

@@ -9,12 +9,9 @@ from statistics import median
 import numpy as np
 from numpy.typing import NDArray
 
-from hopper.problem import Hopper
-from hopper.radial.solution import solve_radial
+from hopper import Hopper, SchurForm, schur_form, smallest_singular_values, solve_radial
 from hopper.spectral.chebyshev import clenshaw_curtis_weights
-from hopper.spectral.pseudospectrum import smallest_singular_values
-from hopper.spectral.schur import SchurForm, schur_form
-from hopper.stability.collocation import half_matrix, paper_matrix
+from hopper.stability.paper_matrix import half_matrix, paper_matrix
 from hopper.stability.transient import half_weights
 
 NODES = 400
@@ -62,7 +59,9 @@ def main() -> None:
     transformed = np.sqrt(weight)[:, None] * matrix / np.sqrt(weight)
     row("Schur form, s", seconds(lambda: schur_form(matrix, weight), 3))
     form = schur_form(matrix, weight)
-    half = schur_form(half_matrix(solution, NODES // 2), half_weights(NODES // 2, "L2"))
+    half = schur_form(
+        half_matrix(solution, NODES // 2), half_weights(solution.hopper, NODES // 2, "L2")
+    )
 
     rng = np.random.default_rng(0)
     for window, (width, height) in WINDOWS.items():

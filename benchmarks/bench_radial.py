@@ -18,11 +18,11 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_bvp
 
+from hopper import Hopper, RadialSolution, solve_radial
 from hopper.arrays import Array
-from hopper.problem import Geometry, Hopper
+from hopper.problem import Geometry
 from hopper.radial.collocation import newton
 from hopper.radial.grid import half_grid
-from hopper.radial.solution import RadialSolution, solve_radial
 
 TARGET = 1e-10
 REPEATS, CALLS = 15, 20

@@ -21,9 +21,9 @@ import compute_map_chunk
 import judge_claims
 import merge_map
 import plot_fig_4_5_map
-from claims.words import paths_of, read_claims
+from hopper_workflow import artifacts, plotting
 from hopper.domain.stability_map import Sweep
-from support import plotting
+from hopper_workflow.claims.words import paths_of, read_claims
 
 MAP = {
     "geometry": "cone",
@@ -35,15 +35,28 @@ CHUNKS = 2
 
 
 def made_up(_hopper: object, phis: np.ndarray) -> Sweep:
-    numbers = [np.random.default_rng(0).normal(size=phis.size) for _ in range(4)]
-    return Sweep(np.zeros(phis.size, dtype=np.int8), *numbers)
+    numbers = [np.random.default_rng(0).normal(size=phis.size) for _ in range(6)]
+    codes = np.zeros(phis.size, dtype=np.int8)
+    a, b, c, d, e, f = numbers
+    return Sweep(phis, codes, a, b, c, d, e, f, codes, codes)
 
 
 def write_chunk(path: Path, side: int, chunk: int, chunks: int) -> None:
     with patch("compute_map_chunk.sweep_friction", made_up):
-        compute_map_chunk.compute_map_chunk(
-            str(path), f"{path}.json", **with_points(side), chunk=chunk, chunks=chunks
+        write_artifact(
+            compute_map_chunk.compute_map_chunk,
+            path,
+            **with_points(side),
+            chunk=chunk,
+            chunks=chunks,
         )
+
+
+def write_artifact(compute: Any, path: Path, **arguments: Any) -> None:
+    provenance = path.with_suffix(".provenance.json")
+    artifacts.writing(compute, "Map", "none")(
+        artifact=str(path), provenance=str(provenance), **arguments
+    )
 
 
 def with_points(side: int) -> dict[str, Any]:
@@ -62,9 +75,7 @@ def measure(rule: str, side: int, run: Path, folder: Path) -> None:
             write_chunk(path, side, chunk, CHUNKS)
     elif rule == "merge_map":
         paths = [str(path) for path in chunks]
-        merge_map.merge_map(
-            paths, str(folder / "map.nc"), str(folder / "map.json"), **with_points(side)
-        )
+        write_artifact(merge_map.merge_map, folder / "map.nc", chunks=paths, **with_points(side))
     elif rule == "judge_claims":
         claims, schema = run / "resources/claims.yaml", run / "workflow/schemas/claims.schema.yaml"
         paths = [

@@ -18,7 +18,7 @@ import yaml
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / "scripts"))
 
-from support.requests import Cost, of_job, read_costs  # noqa: E402
+from hopper_workflow.requests import Cost, of_job, read_costs  # noqa: E402
 
 TABLE = ROOT / "resources/benchmarks.tsv"
 PROFILE = ROOT / "profiles/slurm/config.yaml"

@@ -1,108 +1,92 @@
-"""Borders of the stable domain: neutral curve, fold, tangency, singular velocity."""
+"""Borders of the stable domain: neutral curve and limit of friction, and levels of psi."""
 
 import logging
+from dataclasses import replace
+from functools import partial
 from math import radians
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from hopper_workflow import artifacts, jobs, paper_checks, ranges
 from hopper.domain.borders import borders
-from hopper.domain.neutral import ROOT_TOLERANCE, neutral_curve, neutral_delta
-from hopper.problem import Hopper, as_geometry
-from hopper.radial.friction_limit import End
-from hopper.radial.solution import solve_radial
-from support import artifacts, fields, jobs, paper_checks
+from hopper.domain.growth import ROOT_TOLERANCE
+from hopper.domain.neutral_curve import NeutralCurve, neutral_curve
+from hopper.domain.neutral_points import neutral_delta
+from hopper.problem import Geometry, Hopper, as_geometry
+from hopper_data.datasets import dataset
+from hopper_data.domain import BORDERS, NEUTRAL_CURVE
+from hopper_data.tables import angle, in_degrees, within
 
 
 def compute_borders(
-    artifact: str,
-    provenance: str,
     *,
     geometry: str,
     half_angle_deg: float,
     neutral_step_deg: float,
     delta_deg: dict[str, Any],
     check: dict[str, Any],
-) -> None:
+) -> xr.Dataset:
     """Trace the neutral curve and the borders over delta; each point is a root of an equation.
 
     A few points of the neutral curve, its end left out, are checked by the paper's algorithm.
     """
     shape, half_angle = as_geometry(geometry), radians(half_angle_deg)
-    neutral = neutral_curve(shape, half_angle, radians(neutral_step_deg))
-    logging.info(
-        "%s, %g deg: neutral delta %.6f deg at phi = 0, curve ends at phi = %.6f deg",
-        geometry, half_angle_deg, np.degrees(neutral.delta[0]),
-        np.degrees(neutral.friction_angle[-1]),
-    )  # fmt: skip
-    points, meshes = check["points"], {name: check[name] for name in check if name != "points"}
+    axis = ranges.spaced(**delta_deg)
+    trace = partial(neutral_curve, shape, half_angle, radians(neutral_step_deg), radians(axis[-1]))
+    neutral = trace()
+    logging.info("%s, %g deg: %s", geometry, half_angle_deg, neutral)
+    result = {
+        "neutral": neutral,
+        "symmetric": trace("symmetric") if shape == "wedge" else None,
+        "neutral_error": ROOT_TOLERANCE,
+        "check": _check(shape, half_angle, neutral, **check),
+        "borders": borders(shape, half_angle, np.radians(axis)),
+        "delta": axis,
+    }
+    return dataset(result, TABLE, AXES)
+
+
+def _check(
+    geometry: Geometry, half_angle: float, neutral: NeutralCurve, *, points: int, **meshes: Any
+) -> dict[str, Any]:
     # At given frictions, not at points of the curve, whose number depends on rounding.
     frictions = neutral.friction_angle[-1] * np.arange(points) / points
-    checked = [
-        neutral_delta(shape, half_angle, phi, np.interp(phi, neutral.friction_angle, neutral.delta))
-        for phi in frictions
+    guesses = neutral.first_delta(frictions)
+    deltas = [
+        neutral_delta(geometry, half_angle, phi, guess)
+        for phi, guess in zip(frictions, guesses, strict=True)
     ]
-    solutions = [
-        solve_radial(Hopper(shape, delta, half_angle), phi)
-        for delta, phi in zip(checked, frictions, strict=True)
+    at = [
+        (Hopper(geometry, delta, half_angle), float(phi))
+        for delta, phi in zip(deltas, frictions, strict=True)
     ]
-    deltas = fields.axis(**delta_deg)
-    found = borders(shape, half_angle, np.radians(deltas))
-    ends = (*get_args(End), "none")
-    dataset = xr.Dataset(
-        {
-            "neutral_delta": fields.angle(
-                "point", np.degrees(neutral.delta), "internal friction of neutral stability"
-            ),
-            "neutral_phi": fields.angle(
-                "point", np.degrees(neutral.friction_angle), "wall friction of neutral stability"
-            ),
-            "neutral_error": fields.angle(
-                (), np.degrees(ROOT_TOLERANCE), "tolerance of neutral_delta"
-            ),
-            "check_delta": fields.angle(
-                "check", np.degrees(checked), "internal friction of a checked neutral point"
-            ),
-            "check_phi": fields.angle(
-                "check", np.degrees(frictions), "wall friction of a checked neutral point"
-            ),
-            **paper_checks.check_variables("check", solutions, **meshes),
-            "limit_phi": fields.angle(
-                "delta", np.degrees(found.limit), "largest wall friction with a radial solution"
-            ),
-            "limit_error": fields.angle(
-                "delta", np.degrees(found.limit_error), "error estimate of limit_phi"
-            ),
-            "limit_end": fields.flag(
-                "delta", [ends.index(end) for end in found.end], "what ends the branch", ends
-            ),
-            "tangency_phi": fields.angle(
-                "delta", np.degrees(found.tangency), "wall friction at which a characteristic is "
-                "tangent, NaN where the limit comes first or the smooth wall is beyond it",
-            ),
-            "singular_velocity_phi": fields.angle(
-                "delta", np.degrees(found.singular_velocity), "wall friction at which psi reaches "
-                "pi/4, NaN as before",
-            ),
-        },
-        coords={"delta": fields.angle("delta", deltas, "angle of internal friction")},
-    )  # fmt: skip
-    artifacts.write(
-        dataset,
-        artifact,
-        provenance,
-        title=f"Borders of the stable domain, {geometry}",
-        equations="(3.3), (4.1), (4.2)",
-        parameters={
-            "geometry": geometry,
-            "half_angle_deg": half_angle_deg,
-            "neutral_step_deg": neutral_step_deg,
-            "delta_deg": delta_deg,
-            "check": check,
-        },
-    )
+    return {"delta": deltas, "phi": frictions, **paper_checks.compared(at, **meshes)}
 
+
+TABLE = (
+    *within("neutral", NEUTRAL_CURVE),
+    *(
+        replace(
+            variable,
+            name=variable.name.replace("neutral", "symmetric"),
+            label=f"{variable.label}, symmetric disturbances only",
+            over=variable.over and "symmetric_point",
+        )
+        for variable in within("symmetric", NEUTRAL_CURVE)
+    ),
+    angle("neutral_error", "tolerance of neutral_delta"),
+    angle("check_delta", "internal friction of a checked neutral point", "check", "check.delta"),
+    angle("check_phi", "wall friction of a checked neutral point", "check", "check.phi"),
+    *within("check", paper_checks.table("check")),
+    *within("borders", BORDERS),
+)
+AXES = (in_degrees("delta", "angle of internal friction", "delta"),)
 
 if __name__ == "__main__":
-    jobs.run(compute_borders, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(
+        artifacts.writing(
+            compute_borders, "Borders of the stable domain, {geometry}", "(3.3), (4.1), (4.2)"
+        )
+    )

@@ -3,10 +3,11 @@
 import logging
 from typing import Any
 
+from hopper_workflow import artifacts, jobs
 from hopper.assessment.summary import assess
-from hopper_cli.datasets import assessment_dataset
-from hopper_cli.inputs import Case, Wall
-from support import artifacts, jobs
+from hopper_data.assessments import comment, described
+from hopper_data.datasets import dataset
+from hopper_data.inputs import Case, Wall
 
 
 def compute_case(artifact: str, provenance: str, *, case: dict[str, Any]) -> None:
@@ -16,7 +17,7 @@ def compute_case(artifact: str, provenance: str, *, case: dict[str, Any]) -> Non
     found = assess(given.hopper, given.wall.friction_angle)
     logging.info("%s: %s %s", given, found.outcome, found.reason)
     artifacts.write(
-        assessment_dataset(found),
+        dataset(*described(found), attributes=comment(found)),
         artifact,
         provenance,
         title=f"Case {case['name']}: {given}",
@@ -26,4 +27,4 @@ def compute_case(artifact: str, provenance: str, *, case: dict[str, Any]) -> Non
 
 
 if __name__ == "__main__":
-    jobs.run(compute_case, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(compute_case)

@@ -2,84 +2,101 @@
 
 import logging
 from collections.abc import Sequence
-from math import radians
+from math import ceil, isnan, radians
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from hopper.domain.borders import stable_area, tangency_curve
-from hopper.domain.neutral import NoNeutralPointError, neutral_curve, neutral_delta
-from support import artifacts, fields, jobs
+from hopper_workflow import artifacts, jobs
+from hopper.domain.borders import borders, stable_area
+from hopper.domain.neutral_curve import NeutralCurve, neutral_curve
+from hopper.domain.neutral_points import neutral_delta
+from hopper_data.datasets import dataset
+from hopper_data.tables import Table, angle, flag, in_degrees
 
 
 def compute_domain_angle(
-    artifact: str,
-    provenance: str,
     *,
     half_angles_deg: Sequence[float],
     phis_deg: Sequence[float],
     largest_delta_deg: float,
     neutral_step_deg: float,
-    tangency_points: int,
-) -> None:
+) -> xr.Dataset:
     """Compute the area of the domain up to a largest delta, and neutral deltas."""
     report = jobs.progress(logging.getLogger(), "half angles")
-    areas, errors, neutral = [], [], []
-    for done, angle in enumerate(half_angles_deg, start=1):
-        curve = neutral_curve("cone", radians(angle), radians(neutral_step_deg))
-        deltas = np.linspace(curve.delta[-1], radians(largest_delta_deg), tangency_points)
-        tangency = tangency_curve("cone", radians(angle), deltas)
-        area = stable_area(curve, deltas, tangency)
-        areas.append(area)
-        errors.append(abs(area - stable_area(curve.thinned(), deltas[::2], tangency[::2])))
-        neutral.append([_neutral(angle, phi) for phi in phis_deg])
-        report(done, len(half_angles_deg))
-    missing = np.isnan(neutral)
-    dataset = xr.Dataset(
-        {
-            "area": fields.angle(
-                "half_angle", np.degrees(np.degrees(areas)), "area of the stable domain", "degree2"
-            ),
-            "area_error": fields.angle(
-                "half_angle", np.degrees(np.degrees(errors)), "change of the area on twice the "
-                "spacing of points", "degree2",
-            ),
-            "neutral_delta": fields.angle(
-                ("half_angle", "phi"), neutral, "internal friction of neutral stability"
-            ),
-            "neutral_flag": fields.flag(
-                ("half_angle", "phi"), missing, "whether there is a neutral delta",
-                ("neutral_point", "tangency_comes_first"),
-            ),
-        },
-        coords={
-            "half_angle": fields.angle("half_angle", list(half_angles_deg), "half opening angle"),
-            "phi": fields.angle("phi", list(phis_deg), "angle of wall friction"),
-        },
-    )  # fmt: skip
-    artifacts.write(
-        dataset,
-        artifact,
-        provenance,
-        title="Stable domain of cones over the half opening angle",
-        equations="(4.1), (4.2)",
-        parameters={
-            "half_angles_deg": list(half_angles_deg),
-            "phis_deg": list(phis_deg),
-            "largest_delta_deg": largest_delta_deg,
-            "neutral_step_deg": neutral_step_deg,
-            "tangency_points": tangency_points,
-        },
+    step, largest = radians(neutral_step_deg), radians(largest_delta_deg)
+    domains: list[dict[str, Any]] = []
+    for half_angle in half_angles_deg:
+        curve = neutral_curve("cone", radians(half_angle), step, largest)
+        points = max(3, 1 + ceil((largest - curve.delta[-1]) / step))
+        limit = borders("cone", radians(half_angle), np.linspace(curve.delta[-1], largest, points))
+        areas = np.array(stable_area(curve, limit))
+        errors = np.abs(areas - stable_area(curve.thinned(), limit.thinned()))
+        neutral = [_neutral(curve, half_angle, phi) for phi in phis_deg]
+        domains.append(
+            {
+                "area": dict(zip(_AREAS, areas, strict=True)),
+                "error": dict(zip(_AREAS, errors, strict=True)),
+                "neutral_delta": neutral,
+                "missing": np.isnan(neutral),
+            }
+        )
+        report(len(domains), len(half_angles_deg))
+    axes = {"half_angle": half_angles_deg, "phi": phis_deg}
+    return dataset({"domains": domains, **axes}, TABLE, AXES)
+
+
+def _neutral(curve: NeutralCurve, half_angle_deg: float, phi_deg: float) -> float:
+    """Return the neutral delta at one wall friction, NaN above the curve."""
+    phi = radians(phi_deg)
+    guess = float(curve.first_delta(phi))
+    return guess if isnan(guess) else neutral_delta("cone", radians(half_angle_deg), phi, guess)
+
+
+_AREAS = ("whole", "reached")
+
+
+def _area(name: str, words: str, which: str) -> Table:
+    return (
+        angle(name, words, "half_angle", f"domains.area.{which}", power=2),
+        angle(
+            f"{name}_error",
+            "change of it on twice the spacing of points",
+            "half_angle",
+            f"domains.error.{which}",
+            power=2,
+        ),
     )
 
 
-def _neutral(half_angle_deg: float, phi_deg: float) -> float:
-    try:
-        return float(np.degrees(neutral_delta("cone", radians(half_angle_deg), radians(phi_deg))))
-    except NoNeutralPointError as error:
-        logging.info("%s", error)
-        return float("nan")
-
+TABLE = (
+    *_area("area", "area of the stable domain", "whole"),
+    *_area("area_reached", "area of its part where radial flow reaches the wall", "reached"),
+    angle(
+        "neutral_delta",
+        "internal friction of neutral stability",
+        "half_angle phi",
+        "domains.neutral_delta",
+    ),
+    flag(
+        "neutral_flag",
+        "whether there is a neutral delta",
+        ("neutral_point", "no_neutral_point"),
+        "half_angle phi",
+        "domains.missing",
+    ),
+)
+AXES = (
+    in_degrees("half_angle", "half opening angle", "half_angle"),
+    in_degrees("phi", "angle of wall friction", "phi"),
+)
 
 if __name__ == "__main__":
-    jobs.run(compute_domain_angle, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(
+        artifacts.writing(
+            compute_domain_angle,
+            "Stable domain of cones over the half opening angle",
+            "(4.1), (4.2)",
+        )
+    )

@@ -6,17 +6,20 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from hopper_workflow import artifacts, jobs, ranges
+from hopper.spectral.matching import by_modulus
 from hopper.spectral.pseudospectrum import pseudospectrum
 from hopper.spectral.schur import schur_form
-from hopper.stability.collocation import Half, half_matrix
 from hopper.stability.mesh_spectrum import HALVES
+from hopper.stability.paper_matrix import Half, half_matrix
 from hopper.stability.transient import Norm, half_weights
-from support import artifacts, fields, hoppers, jobs
+from hopper_data.datasets import dataset
+from hopper_data.inputs import solution_of
+from hopper_data.stability import PLANE, PSEUDOSPECTRUM
+from hopper_data.tables import complex_number
 
 
 def compute_pseudospectrum(
-    artifact: str,
-    provenance: str,
     *,
     hopper: dict[str, Any],
     nodes: int,
@@ -25,53 +28,35 @@ def compute_pseudospectrum(
     psi_scale: float,
     real: dict[str, Any],
     imag: dict[str, Any],
-) -> None:
+) -> xr.Dataset:
     """Compute the grid for the full interval (paper mode) or for the flow's parity (physical)."""
-    solution = hoppers.radial_solution(**hopper)
-    x, y = fields.axis(**real), fields.axis(**imag)
+    solution = solution_of(**hopper)
+    x, y = ranges.spaced(**real), ranges.spaced(**imag)
     halves: tuple[Half, ...] = HALVES if mode == "paper" else ("physical",)
     grids, eigenvalues = [], []
     for half in halves:
         matrix = half_matrix(solution, nodes // 2, half, psi_scale)
-        form = schur_form(matrix, half_weights(nodes // 2, norm))
-        grids.append(pseudospectrum(form, x, y, progress=_report(half)).sigma_min)
+        form = schur_form(matrix, half_weights(solution.hopper, nodes // 2, norm))
+        report = jobs.progress(logging.getLogger(), f"{half} half, grid points")
+        grids.append(pseudospectrum(form, x, y, progress=report).sigma_min)
         eigenvalues.append(form.eigenvalues)
-    spectrum = np.concatenate(eigenvalues)
-    spectrum = spectrum[np.argsort(np.abs(spectrum), kind="stable")]
-    dataset = xr.Dataset(
-        {
-            # The parities are orthogonal in both norms: the smaller of the two is that of M.
-            "sigma_min": fields.number(
-                ("imag", "real"), np.min(grids, axis=0), "smallest singular value of z I - M"
-            ),
-            **fields.complex_number("mode", "eigenvalue", spectrum, "eigenvalue of M"),
-        },
-        coords={
-            "real": fields.number("real", x, "real part of z"),
-            "imag": fields.number("imag", y, "imaginary part of z"),
-        },
-    )
-    artifacts.write(
-        dataset,
-        artifact,
-        provenance,
-        title=f"Pseudospectrum of the stability operator, {mode} mode, {norm} norm",
-        equations="(4.2); Trefethen and Embree (2005)",
-        parameters={
-            "hopper": hopper,
-            "nodes": nodes,
-            "mode": mode,
-            "norm": norm,
-            "psi_scale": psi_scale,
-            "real": real,
-            "imag": imag,
-        },
-    )
+    result = {
+        # The parities are orthogonal in both norms: the smaller of the two is that of M.
+        "sigma_min": np.min(grids, axis=0),
+        "eigenvalue": by_modulus(np.concatenate(eigenvalues)),
+        "real": x,
+        "imag": y,
+    }
+    return dataset(result, TABLE, PLANE)
 
 
-def _report(half: str) -> jobs.Progress:
-    return jobs.progress(logging.getLogger(), f"{half} half, grid points")
-
+TABLE = (*PSEUDOSPECTRUM, complex_number("eigenvalue", "eigenvalue of M", "mode"))
 
 if __name__ == "__main__":
-    jobs.run(compute_pseudospectrum, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(
+        artifacts.writing(
+            compute_pseudospectrum,
+            "Pseudospectrum of the stability operator, {mode} mode, {norm} norm",
+            "(4.2); Trefethen and Embree (2005)",
+        )
+    )

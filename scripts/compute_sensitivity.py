@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from hopper_workflow import artifacts, jobs, kept_modes, ranges
 from hopper.spectral.schur import schur_form
 from hopper.spectral.sensitivity import (
     kept_condition_numbers,
@@ -14,16 +15,16 @@ from hopper.spectral.sensitivity import (
     resolvent_norm,
 )
 from hopper.spectral.transient import abscissa, condition_number, propagator_norm
-from hopper.stability.collocation import half_matrix
-from hopper.stability.mesh_spectrum import HALVES
+from hopper.stability.paper_matrix import half_matrix
 from hopper.stability.transient import Norm, half_weights, modal_basis
-from support import artifacts, fields, hoppers, jobs, modes
+from hopper_data.datasets import dataset
+from hopper_data.inputs import solution_of
+from hopper_data.stability import HALF
+from hopper_data.tables import complex_number, number
 
 
 def compute_sensitivity(
     spectrum: str,
-    artifact: str,
-    provenance: str,
     *,
     hopper: dict[str, Any],
     nodes: int,
@@ -32,77 +33,62 @@ def compute_sensitivity(
     psi_scale: float,
     frequencies: dict[str, Any],
     elapsed: dict[str, Any],
-) -> None:
+) -> xr.Dataset:
     """Measure the non-normality of M on the kept modes and of the full matrix."""
-    solution = hoppers.radial_solution(**hopper)
-    kept = modes.kept_by_half(artifacts.read(spectrum), mode)
+    solution = solution_of(**hopper)
+    kept = kept_modes.by_half(artifacts.read(spectrum), mode)
+    weight = half_weights(solution.hopper, nodes // 2, norm)
     forms = {
-        half: schur_form(
-            half_matrix(solution, nodes // 2, half, psi_scale), half_weights(nodes // 2, norm)
-        )
+        half: schur_form(half_matrix(solution, nodes // 2, half, psi_scale), weight)
         for half in kept
     }
     bases = [modal_basis(solution, nodes, h, values, norm, psi_scale) for h, values in kept.items()]
-    conditions = np.concatenate(
-        [kept_condition_numbers(forms[half], values) for half, values in kept.items()]
-    )
     measures = kept_sensitivity(bases)
-    y = fields.axis(0, **frequencies)
-    times = fields.axis(0, **elapsed)
-    relative = propagator_norm(bases, times) * np.exp(-abscissa(bases) * times)
-    logging.info(
-        "%s, %s: distance to instability %.4g, largest condition %.4g, Kreiss bound %.4g <= %.4g",
-        hopper["geometry"], mode, measures.distance, conditions.max(), measures.kreiss,
-        relative.max(),
-    )  # fmt: skip
-    codes = np.repeat([HALVES.index(half) for half in kept], [v.size for v in kept.values()])
-    dataset = xr.Dataset(
-        {
-            **fields.complex_number(
-                "mode", "eigenvalue", np.concatenate(list(kept.values())), "kept eigenvalue"
-            ),
-            "half": modes.half("mode", codes),
-            "condition": fields.number("mode", conditions, "condition number of the eigenvalue"),
-            "basis_condition": fields.number(
-                (), condition_number(bases), "kappa(V) of the kept eigenvectors"
-            ),
-            "distance": fields.number(
-                (), measures.distance, "smallest perturbation that puts an eigenvalue on the axis"
-            ),
-            "distance_frequency": fields.number((), measures.frequency, "Im(z) of the distance"),
-            "kreiss_bound": fields.number((), measures.kreiss, "Kreiss bound of the growth"),
-            "relative_growth": fields.number(
-                "elapsed", relative, "norm of exp(-t M) over exp(-t alpha)"
-            ),
-            "resolvent_kept": fields.number(
-                "frequency", resolvent_norm([kept_form(bases)], y), "resolvent on the kept modes"
-            ),
-            "resolvent": fields.number(
-                "frequency", resolvent_norm(list(forms.values()), y), "resolvent of the full matrix"
-            ),
-        },
-        coords={
-            "frequency": fields.number("frequency", y, "y at z = i y"),
-            "elapsed": fields.number("elapsed", times, "-t = -log r, the way down the hopper"),
-        },
-    )
-    artifacts.write(
-        dataset,
-        artifact,
-        provenance,
-        title=f"Sensitivity of the spectrum, {mode} mode, {norm} norm",
-        equations="(4.2), (4.11); Trefethen and Embree (2005)",
-        parameters={
-            "hopper": hopper,
-            "nodes": nodes,
-            "mode": mode,
-            "norm": norm,
-            "psi_scale": psi_scale,
-            "frequencies": frequencies,
-            "elapsed": elapsed,
-        },
-    )
+    y, times = ranges.spaced(0, **frequencies), ranges.spaced(0, **elapsed)
+    result: dict[str, Any] = {
+        "eigenvalue": np.concatenate(list(kept.values())),
+        "half": np.repeat(list(kept), [values.size for values in kept.values()]),
+        "condition": np.concatenate(
+            [kept_condition_numbers(forms[half], values) for half, values in kept.items()]
+        ),
+        "basis_condition": condition_number(bases),
+        "measures": measures,
+        "relative_growth": propagator_norm(bases, times) * np.exp(-abscissa(bases) * times),
+        "resolvent_kept": resolvent_norm([kept_form(bases)], y),
+        "resolvent": resolvent_norm(list(forms.values()), y),
+        "frequency": y,
+        "elapsed": times,
+    }
+    logging.info("%s, %s: %s", hopper["geometry"], mode, measures)
+    return dataset(result, TABLE, AXES)
 
+
+TABLE = (
+    complex_number("eigenvalue", "kept eigenvalue", "mode"),
+    HALF,
+    number("condition", "condition number of the eigenvalue", "mode"),
+    number("basis_condition", "kappa(V) of the kept eigenvectors"),
+    number(
+        "distance",
+        "smallest perturbation that puts an eigenvalue on the axis",
+        source="measures.distance",
+    ),
+    number("distance_frequency", "Im(z) of the distance", source="measures.frequency"),
+    number("kreiss_bound", "Kreiss bound of the growth", source="measures.kreiss"),
+    number("relative_growth", "norm of exp(-t M) over exp(-t alpha)", "elapsed"),
+    number("resolvent_kept", "resolvent on the kept modes", "frequency"),
+    number("resolvent", "resolvent of the full matrix", "frequency"),
+)
+AXES = (
+    number("frequency", "y at z = i y", "frequency"),
+    number("elapsed", "-t = -log r, the way down the hopper", "elapsed"),
+)
 
 if __name__ == "__main__":
-    jobs.run(compute_sensitivity, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(
+        artifacts.writing(
+            compute_sensitivity,
+            "Sensitivity of the spectrum, {mode} mode, {norm} norm",
+            "(4.2), (4.11); Trefethen and Embree (2005)",
+        )
+    )

@@ -1,56 +1,44 @@
 """Discrete spectrum of M on one mesh."""
 
 import logging
+from math import degrees
 
 import xarray as xr
 
+from hopper_workflow import artifacts, jobs
 from hopper.stability.mesh_spectrum import mesh_spectrum
-from support import artifacts, fields, hoppers, jobs, modes
+from hopper.stability.tilted import tangency_angle
+from hopper_data.datasets import dataset
+from hopper_data.inputs import solution_of
+from hopper_data.stability import MESH_SPECTRUM
+from hopper_data.tables import angle, number, within
 
 
 def compute_spectrum(
-    artifact: str,
-    provenance: str,
-    *,
-    geometry: str,
-    delta_deg: float,
-    half_angle_deg: float,
-    mu: float,
-    nodes: int,
-) -> None:
+    *, geometry: str, delta_deg: float, half_angle_deg: float, mu: float, nodes: int
+) -> xr.Dataset:
     """Compute all eigenvalues with their parity and the tails of their eigenvectors."""
-    solution = hoppers.radial_solution(geometry, delta_deg, half_angle_deg, mu)
+    solution = solution_of(geometry, delta_deg, half_angle_deg, mu)
     spectrum = mesh_spectrum(solution, nodes)
     logging.info("%s, %d nodes: %d eigenvalues", geometry, nodes, spectrum.eigenvalues.size)
-    dataset = xr.Dataset(
-        {
-            **fields.complex_number(
-                "mode", "eigenvalue", spectrum.eigenvalues, "eigenvalue of M by modulus"
-            ),
-            "half": modes.half("mode", spectrum.half),
-            "eigenvector_tail": fields.number("mode", spectrum.tail, _TAIL),
-            "error_radial": fields.number(
-                (), solution.error_estimate, "error estimate of the radial solution"
-            ),
-        }
-    )
-    artifacts.write(
-        dataset,
-        artifact,
-        provenance,
-        title=f"Spectrum of the stability operator, {geometry}, {nodes} nodes",
-        equations="(4.1), (4.2)",
-        parameters={
-            "geometry": geometry,
-            "delta_deg": delta_deg,
-            "half_angle_deg": half_angle_deg,
-            "mu": mu,
-            "nodes": nodes,
-        },
-    )
+    singular = solution.first_angle_with(tangency_angle(solution.hopper.delta))
+    if singular is not None:
+        logging.warning("A of (4.1) is singular at theta = %.4f deg", degrees(singular))
+    result = {"spectrum": spectrum, "radial": solution, "singular": singular}
+    return dataset(result, TABLE)
 
 
-_TAIL = "last tenth of the eigenvector's Chebyshev coefficients over the largest"
+TABLE = (
+    *within("spectrum", MESH_SPECTRUM),
+    number("error_radial", "error estimate of the radial solution", source="radial.error_estimate"),
+    angle("singular_theta", "least polar angle where A of (4.1) is singular", source="singular"),
+)
 
 if __name__ == "__main__":
-    jobs.run(compute_spectrum, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(
+        artifacts.writing(
+            compute_spectrum,
+            "Spectrum of the stability operator, {geometry}, {nodes} nodes",
+            "(4.1), (4.2)",
+        )
+    )

@@ -4,21 +4,18 @@ import logging
 
 import xarray as xr
 
+from hopper_workflow import artifacts, jobs
 from hopper.stability.modes import linear_stability
-from support import artifacts, fields, hoppers, jobs
+from hopper_data.datasets import dataset
+from hopper_data.inputs import solution_of
+from hopper_data.stability import STABILITY
 
 
 def compute_stability(
-    artifact: str,
-    provenance: str,
-    *,
-    geometry: str,
-    delta_deg: float,
-    half_angle_deg: float,
-    mu: float,
-) -> None:
+    *, geometry: str, delta_deg: float, half_angle_deg: float, mu: float
+) -> xr.Dataset:
     """Compute the verdict of stability that needs no large mesh."""
-    result = linear_stability(hoppers.radial_solution(geometry, delta_deg, half_angle_deg, mu))
+    result = linear_stability(solution_of(geometry, delta_deg, half_angle_deg, mu))
     logging.info(
         "%s: abscissa %.10f (%s), line %.10f",
         geometry,
@@ -26,35 +23,14 @@ def compute_stability(
         result.governed_by,
         result.line.abscissa,
     )
-    dataset = xr.Dataset(
-        {
-            **fields.complex_number(
-                "mode", "eigenvalue", result.eigenvalues, "low mode with Im >= 0, by modulus"
-            ),
-            "line": fields.number((), result.line.abscissa, "abscissa of the asymptotic line"),
-            "line_spacing": fields.number((), result.line.spacing, "spacing of modes in Im"),
-            "line_error": fields.number((), result.line.error_estimate, "error of the line"),
-            "abscissa": fields.number((), result.abscissa, "supremum of Re(lambda)"),
-            "abscissa_error": fields.number((), result.error_estimate, "error of the abscissa"),
-            "governed_by": fields.flag(
-                (), result.governed_by == "line", "what the abscissa is due to", ("mode", "line")
-            ),
-        }
-    )
-    artifacts.write(
-        dataset,
-        artifact,
-        provenance,
-        title=f"Low modes, asymptotic line and spectral abscissa, {geometry}",
-        equations="(4.1), (4.2)",
-        parameters={
-            "geometry": geometry,
-            "delta_deg": delta_deg,
-            "half_angle_deg": half_angle_deg,
-            "mu": mu,
-        },
-    )
+    return dataset(result, STABILITY)
 
 
 if __name__ == "__main__":
-    jobs.run(compute_stability, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(
+        artifacts.writing(
+            compute_stability,
+            "Low modes, asymptotic line and spectral abscissa, {geometry}",
+            "(4.1), (4.2)",
+        )
+    )

@@ -5,15 +5,15 @@ import logging
 from collections import Counter
 from collections.abc import Sequence
 
-from claims.ledger import COLUMNS, rows
-from claims.words import paths_of, read_claims
-from support import artifacts, jobs
+from hopper_workflow import artifacts, jobs
+from hopper_workflow.claims.ledger import COLUMNS, rows
+from hopper_workflow.claims.words import paths_of, read_claims
 
 
 def judge_claims(claims: str, schema: str, paths: Sequence[str], table: str) -> None:
     """Judge the claims and write a row for each, as CSV.
 
-    ``paths`` are those of :func:`claims.words.paths_of`, in that order.
+    ``paths`` are those of :func:`hopper_workflow.claims.words.paths_of`, in that order.
     """
     words = read_claims(claims, schema)
     data = {name: artifacts.read(path) for name, path in zip(paths_of(words), paths, strict=True)}
@@ -27,4 +27,4 @@ def judge_claims(claims: str, schema: str, paths: Sequence[str], table: str) -> 
 
 
 if __name__ == "__main__":
-    jobs.run(judge_claims, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(judge_claims)

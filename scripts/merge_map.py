@@ -5,19 +5,17 @@ from typing import Any
 
 import xarray as xr
 
-from support import artifacts, jobs
+from hopper_workflow import artifacts, jobs
 
 
 def merge_map(
     chunks: Sequence[str],
-    artifact: str,
-    provenance: str,
     *,
     geometry: str,
     half_angle_deg: float,
     delta_deg: dict[str, Any],
     phi_deg: dict[str, Any],
-) -> None:
+) -> xr.Dataset:
     """Sort the rows of all chunks by delta."""
     parameters = {
         "geometry": geometry,
@@ -26,7 +24,7 @@ def merge_map(
         "phi_deg": phi_deg,
     }
     parts = [
-        artifacts.read(path, {**parameters, "chunk": index, "chunks": len(chunks)})
+        artifacts.read(path, {**parameters, "chunk": index, "chunks": len(chunks)}, stored=True)
         for index, path in enumerate(chunks)
     ]
     merged = xr.concat(parts, "delta", combine_attrs="drop_conflicts")
@@ -34,15 +32,8 @@ def merge_map(
     for variable in merged.variables.values():
         # As read, it still names the dropped coordinate.
         variable.encoding.pop("coordinates", None)
-    artifacts.write(
-        merged,
-        artifact,
-        provenance,
-        title=f"Stability map, {geometry}",
-        equations="(4.1), (4.2)",
-        parameters=parameters,
-    )
+    return merged
 
 
 if __name__ == "__main__":
-    jobs.run(merge_map, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(artifacts.writing(merge_map, "Stability map, {geometry}", "(4.1), (4.2)"))

@@ -5,9 +5,9 @@ import textwrap
 import xarray as xr
 from matplotlib.axes import Axes
 
+from hopper_workflow import artifacts, jobs, plotting
 from hopper_cli import drawing, text
-from hopper_cli.rows import Row
-from support import artifacts, fields, jobs, plotting
+from hopper_data.tables import Row, number
 
 
 def plot_case(artifact: str, png: str, pdf: str, *, description: str, delta_deg: float) -> None:
@@ -23,7 +23,7 @@ def plot_case(artifact: str, png: str, pdf: str, *, description: str, delta_deg:
             drawing.say(axis, "no radial solution")
     spectrum, *rest = axes[1]
     if "line" in data:
-        drawing.draw_spectrum(spectrum, fields.as_complex(data, "eigenvalue"), float(data.line))
+        drawing.draw_spectrum(spectrum, data.eigenvalue.to_numpy(), float(data.line))
     else:
         drawing.say(spectrum, "no spectrum")
     for axis in rest:
@@ -35,12 +35,12 @@ def plot_case(artifact: str, png: str, pdf: str, *, description: str, delta_deg:
 def _write_numbers(axis: Axes, data: xr.Dataset) -> None:
     """Write the outcome, a table of every number that has an error, and the reason, if any."""
     axis.axis("off")
-    outcome = data.outcome.attrs["flag_meanings"].split()[int(data.outcome)]
-    axis.set_title(f"outcome: {outcome.replace('_', ' ')}", fontweight="bold")
+    outcome = data.outcome.item().replace("_", " ")
+    axis.set_title(f"outcome: {outcome}", fontweight="bold")
     rows = [
-        Row(str(key), number.long_name, number.units, value=float(number), error=float(error))
-        for key, number in data.items()
-        if (error := data.get(f"{key}_error")) is not None
+        Row(number(str(key), item.long_name, units=item.units), float(item), float(error))
+        for key, item in data.items()
+        if item.ndim == 0 and (error := data.get(f"{key}_error")) is not None
     ]
     for line, cells in enumerate(text.number_cells(rows)):
         for x, words in zip((0.04, 0.62), cells, strict=True):
@@ -52,4 +52,4 @@ def _write_numbers(axis: Axes, data: xr.Dataset) -> None:
 _FIELDS = ("theta", "sigma", "psi", "u")
 
 if __name__ == "__main__":
-    jobs.run(plot_case, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plot_case)

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, FancyArrowPatch
 
-from support import jobs, plotting
+from hopper_workflow import jobs, plotting
 
 _DEPTH = (0.85, 0.42)  # offset of the wedge's rear edge, in units of the slant height
 _FLATTENING = 0.22  # of the cone's circles as seen from the side
@@ -52,17 +52,23 @@ def _draw_cone(axis: Axes, half_angle: float) -> None:
     axis.fill(
         np.concatenate([[0], x * np.cos(angle[:121])]),
         np.concatenate([[0], y + _FLATTENING * x * np.sin(-angle[:121])]),
-        color=plotting.SKY, alpha=0.18, lw=0,
-    )  # fmt: skip
+        color=plotting.SKY,
+        alpha=0.18,
+        lw=0,
+    )
     axis.plot(x * np.cos(angle), y + _FLATTENING * x * np.sin(angle), **wall)
     axis.plot([-x, 0, x], [y, 0, y], **wall)
     # The azimuth phi, on a circle above the rim.
     axis.add_patch(
         FancyArrowPatch(
-            (-0.16, y + 0.28), (0.16, y + 0.28), connectionstyle="arc3,rad=0.5",
-            arrowstyle="->", mutation_scale=7, linewidth=0.8,
+            (-0.16, y + 0.28),
+            (0.16, y + 0.28),
+            connectionstyle="arc3,rad=0.5",
+            arrowstyle="->",
+            mutation_scale=7,
+            linewidth=0.8,
         )
-    )  # fmt: skip
+    )
     axis.text(0.2, y + 0.2, r"$\varphi$", ha="left", va="center")
 
 
@@ -78,31 +84,51 @@ def _draw_coordinates(axis: Axes, half_angle: float, theta: float) -> None:
     axis.text(tip[0] * 0.72 - 0.02, tip[1] * 0.72 - 0.02, "$r$", color=plotting.BLUE, ha="right")
     for vector, length, name in ((along, 0.19, r"$e_r$"), (across, 0.1, r"$e_\vartheta$")):
         _arrow(axis, tip, tip + length * vector, plotting.BLUE)
-        axis.text(*(tip + (length + 0.05) * vector), name, color=plotting.BLUE,
-                  ha="center", va="center")  # fmt: skip
+        axis.text(
+            *(tip + (length + 0.05) * vector), name, color=plotting.BLUE, ha="center", va="center"
+        )
     axis.add_patch(
         Arc((0, 0), 0.62, 0.62, theta1=90, theta2=90 + np.degrees(theta), color=plotting.BLUE)
     )
     middle = theta / 2
-    axis.text(-0.37 * sin(middle), 0.37 * cos(middle), r"$\vartheta$", color=plotting.BLUE,
-              ha="center", va="center")  # fmt: skip
+    axis.text(
+        -0.37 * sin(middle),
+        0.37 * cos(middle),
+        r"$\vartheta$",
+        color=plotting.BLUE,
+        ha="center",
+        va="center",
+    )
     axis.add_patch(
-        Arc((0, 0), 0.5, 0.5, theta1=90 - np.degrees(half_angle), theta2=90,
-            color=plotting.ORANGE)
-    )  # fmt: skip
+        Arc((0, 0), 0.5, 0.5, theta1=90 - np.degrees(half_angle), theta2=90, color=plotting.ORANGE)
+    )
     middle = half_angle / 2
-    axis.text(0.34 * sin(middle), 0.34 * cos(middle), r"$\vartheta_w$", color=plotting.ORANGE,
-              ha="center", va="center")  # fmt: skip
+    axis.text(
+        0.34 * sin(middle),
+        0.34 * cos(middle),
+        r"$\vartheta_w$",
+        color=plotting.ORANGE,
+        ha="center",
+        va="center",
+    )
     _arrow(axis, np.array([0.72, 0.3]), np.array([0.72, 0.02]), plotting.BLACK)
     axis.text(0.77, 0.14, "$g$", va="center")
 
 
 def _arrow(axis: Axes, start: np.ndarray, end: np.ndarray, color: str) -> None:
     axis.add_patch(
-        FancyArrowPatch(start, end, arrowstyle="-|>", mutation_scale=7, shrinkA=0, shrinkB=0,
-                        color=color, linewidth=0.9)
-    )  # fmt: skip
+        FancyArrowPatch(
+            start,
+            end,
+            arrowstyle="-|>",
+            mutation_scale=7,
+            shrinkA=0,
+            shrinkB=0,
+            color=color,
+            linewidth=0.9,
+        )
+    )
 
 
 if __name__ == "__main__":
-    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw))

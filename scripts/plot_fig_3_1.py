@@ -2,7 +2,7 @@
 
 from matplotlib.figure import Figure
 
-from support import artifacts, jobs, plotting
+from hopper_workflow import artifacts, jobs, plotting
 
 
 def draw(artifact: str) -> Figure:
@@ -29,4 +29,4 @@ def draw(artifact: str) -> Figure:
 _COLORS = (plotting.BLUE, plotting.ORANGE, plotting.GREEN, plotting.PURPLE)
 
 if __name__ == "__main__":
-    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw))

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from support import artifacts, jobs, plotting
+from hopper_workflow import artifacts, jobs, plotting
 
 
 def draw(artifact: str, *, stagnant_from_deg: float) -> Figure:
@@ -44,4 +44,4 @@ def _shade(axis: Axes, start: float, stop: float) -> None:
 _COLORS = (plotting.BLUE, plotting.ORANGE)
 
 if __name__ == "__main__":
-    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw))

@@ -2,7 +2,7 @@
 
 from matplotlib.figure import Figure
 
-from support import artifacts, jobs, plotting
+from hopper_workflow import artifacts, jobs, plotting
 
 
 def draw(artifact: str) -> Figure:
@@ -17,8 +17,15 @@ def draw(artifact: str) -> Figure:
         neutral = float(data.neutral_delta.sel(geometry=geometry))
         axis.plot(neutral, 0, "o", color=color)
         shift, side = ((4, 4), "left") if geometry == "wedge" else ((-5, -10), "right")
-        axis.annotate(f"{neutral:.2f}°", (neutral, 0), shift, textcoords="offset points",
-                      color=color, fontsize=7, ha=side)  # fmt: skip
+        axis.annotate(
+            f"{neutral:.2f}°",
+            (neutral, 0),
+            shift,
+            textcoords="offset points",
+            color=color,
+            fontsize=7,
+            ha=side,
+        )
     crossing = float(data.crossing_delta), float(data.crossing_abscissa)
     axis.plot(*crossing, "o", color=plotting.BLACK)
     axis.annotate(f"{crossing[0]:.2f}°", crossing, (5, 4), textcoords="offset points", fontsize=7)
@@ -33,4 +40,4 @@ def draw(artifact: str) -> Figure:
 
 
 if __name__ == "__main__":
-    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw))

@@ -5,7 +5,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from support import artifacts, fields, jobs, plotting
+from hopper_workflow import artifacts, jobs, plotting
 
 
 def draw(wedge: str, cone: str, wedge_exact: str, cone_exact: str, *, zoom_imag: float) -> Figure:
@@ -18,11 +18,19 @@ def draw(wedge: str, cone: str, wedge_exact: str, cone_exact: str, *, zoom_imag:
         _draw_spectrum(top, data)
         _draw_spectrum(bottom, data)
         # The families the paper plots: all of the wedge, Bessel's for the cone.
-        shown = np.full(theory.sizes["mode"], True) if geometry == "wedge" else theory.kind == 0
-        crosses = fields.as_complex(theory, "eigenvalue")[shown]
+        shown = (
+            np.full(theory.sizes["mode"], True) if geometry == "wedge" else theory.kind == "bessel"
+        )
+        crosses = theory.eigenvalue.to_numpy()[shown]
         crosses = crosses[np.abs(crosses.imag) <= zoom_imag]
-        bottom.plot(crosses.real, crosses.imag, "x", color=plotting.ORANGE, markersize=5,
-                    label=f"exact, {equation}")  # fmt: skip
+        bottom.plot(
+            crosses.real,
+            crosses.imag,
+            "x",
+            color=plotting.ORANGE,
+            markersize=5,
+            label=f"exact, {equation}",
+        )
         bottom.set_ylim(-zoom_imag, zoom_imag)
         top.set_title(f"{geometry}: {int(data.run_stop - data.run_start)} converged eigenvalues")
         bottom.set_title(f"{geometry}: comparison with smooth-wall theory")
@@ -40,14 +48,28 @@ def draw(wedge: str, cone: str, wedge_exact: str, cone_exact: str, *, zoom_imag:
 def _draw_spectrum(axis: Axes, data: xr.Dataset) -> None:
     """Filled: confirmed by the sound filter. Open: kept by the paper's wording alone."""
     run = slice(int(data.run_start), int(data.run_stop))
-    values = fields.as_complex(data, "eigenvalue")[run]
-    kept = data.kept.to_numpy()[run] == 1
+    values = data.eigenvalue.to_numpy()[run]
+    kept = data.kept.to_numpy()[run] == "yes"
     axis.axvline(0, color="0.5", linewidth=0.6)
-    axis.plot(values[~kept].real, values[~kept].imag, "o", markersize=5, mfc="none", mew=0.6,
-              color=plotting.BLUE, label="nearest match only")  # fmt: skip
-    axis.plot(values[kept].real, values[kept].imag, "o", markersize=2.6, color=plotting.BLUE,
-              label="resolved")  # fmt: skip
+    axis.plot(
+        values[~kept].real,
+        values[~kept].imag,
+        "o",
+        markersize=5,
+        mfc="none",
+        mew=0.6,
+        color=plotting.BLUE,
+        label="nearest match only",
+    )
+    axis.plot(
+        values[kept].real,
+        values[kept].imag,
+        "o",
+        markersize=2.6,
+        color=plotting.BLUE,
+        label="resolved",
+    )
 
 
 if __name__ == "__main__":
-    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw))

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from support import artifacts, fields, jobs, plotting
+from hopper_workflow import artifacts, jobs, plotting
 
 
 def draw(wedge: str, cone: str, wedge_line: str, cone_line: str) -> Figure:
@@ -12,13 +12,18 @@ def draw(wedge: str, cone: str, wedge_line: str, cone_line: str) -> Figure:
     columns = (("wedge", wedge, wedge_line), ("cone", cone, cone_line))
     for column, (geometry, spectrum, stability) in enumerate(columns):
         data, line = artifacts.read(spectrum), float(artifacts.read(stability).line)
-        kept = (data.kept.to_numpy() == 1) & (data.half.to_numpy() == 0)
-        modes = fields.as_complex(data, "eigenvalue")[kept]
+        kept = (data.kept.to_numpy() == "yes") & (data.half.to_numpy() == "physical")
+        modes = data.eigenvalue.to_numpy()[kept]
         color = plotting.GEOMETRY_COLORS[geometry]
         top, bottom = axes[:, column]
         top.axvline(0, color="0.5", linewidth=0.6)
-        top.axvline(line, color=plotting.BLACK, linewidth=0.8, linestyle="--",
-                    label=rf"$\Lambda$ = {line:.6f}")  # fmt: skip
+        top.axvline(
+            line,
+            color=plotting.BLACK,
+            linewidth=0.8,
+            linestyle="--",
+            label=rf"$\Lambda$ = {line:.6f}",
+        )
         top.plot(modes.real, modes.imag, "o", markersize=2.6, color=color, label="physical modes")
         top.set_title(f"{geometry}: {modes.size} physical modes")
         top.set_xlabel(r"Re $\lambda$")
@@ -40,4 +45,4 @@ def draw(wedge: str, cone: str, wedge_line: str, cone_line: str) -> Figure:
 
 
 if __name__ == "__main__":
-    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw))

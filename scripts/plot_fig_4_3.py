@@ -2,7 +2,7 @@
 
 from matplotlib.figure import Figure
 
-from support import artifacts, jobs, plotting
+from hopper_workflow import artifacts, jobs, plotting
 
 
 def draw(wedge: str, cone: str) -> Figure:
@@ -12,12 +12,13 @@ def draw(wedge: str, cone: str) -> Figure:
         data = artifacts.read(path).isel(kept_in=0, norm=0, psi_scale=0)
         abscissa = float(data.abscissa)
         verdict = "stable" if abscissa < 0 else "unstable"
-        axis.semilogy(data.elapsed, data.growth, color=plotting.BLUE, linewidth=0.9,
-                      label=r"$\|\exp(-t M)\|$")  # fmt: skip
-        axis.semilogy(data.elapsed, data.lower_bound, "k--", linewidth=0.9,
-                      label=r"$e^{-t\alpha}$")  # fmt: skip
-        axis.semilogy(data.elapsed, data.upper_bound, "k-", linewidth=0.9,
-                      label=r"$\kappa(V)\,e^{-t\alpha}$")  # fmt: skip
+        axis.semilogy(
+            data.elapsed, data.growth, color=plotting.BLUE, linewidth=0.9, label=r"$\|\exp(-t M)\|$"
+        )
+        axis.semilogy(data.elapsed, data.lower_bound, "k--", linewidth=0.9, label=r"$e^{-t\alpha}$")
+        axis.semilogy(
+            data.elapsed, data.upper_bound, "k-", linewidth=0.9, label=r"$\kappa(V)\,e^{-t\alpha}$"
+        )
         axis.set_title(rf"{geometry}, {verdict}, $\alpha$ = {abscissa:.3f}")
         axis.set_xlim(0, float(data.elapsed.max()))
         axis.set_xlabel(r"$-t = -\log r$")
@@ -27,4 +28,4 @@ def draw(wedge: str, cone: str) -> Figure:
 
 
 if __name__ == "__main__":
-    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw))

@@ -2,7 +2,7 @@
 
 from matplotlib.figure import Figure
 
-from support import artifacts, jobs, plotting
+from hopper_workflow import artifacts, jobs, plotting
 
 
 def draw(wedge: str, cone: str) -> Figure:
@@ -10,16 +10,21 @@ def draw(wedge: str, cone: str) -> Figure:
     panels = [artifacts.read(path) for path in (wedge, cone)]
     figure, axes = plotting.subplots(2, 2, height=4.6, sharex=True)
     for column, (data, title) in enumerate(zip(panels, ("wedge", "cone"), strict=True)):
-        for row, mode in enumerate(data["kept_in"].attrs["flag_meanings"].split()):
+        for row, mode in enumerate(data["kept_in"].values):
             axis = axes[row, column]
             case = data.isel(kept_in=row)
             relative = case.growth / case.lower_bound
             for i, (norm, color) in enumerate(_NORMS):
                 for j, style in enumerate(("-", ":")):
                     scale = float(data.psi_scale[j])
-                    axis.semilogy(data.elapsed, relative.isel(norm=i, psi_scale=j), color=color,
-                                  linestyle=style, linewidth=0.9,
-                                  label=rf"{norm}, $\psi$ scale {scale:g}")  # fmt: skip
+                    axis.semilogy(
+                        data.elapsed,
+                        relative.isel(norm=i, psi_scale=j),
+                        color=color,
+                        linestyle=style,
+                        linewidth=0.9,
+                        label=rf"{norm}, $\psi$ scale {scale:g}",
+                    )
             axis.set_title(f"{title}, {mode} modes")
             axis.set_xlim(0, float(data.elapsed.max()))
             axis.set_ylim(bottom=0.9)
@@ -33,4 +38,4 @@ def draw(wedge: str, cone: str) -> Figure:
 _NORMS = (("discrete", plotting.BLUE), ("$L_2$", plotting.ORANGE))
 
 if __name__ == "__main__":
-    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw))

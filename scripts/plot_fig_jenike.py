@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from support import artifacts, jobs, plotting
+from hopper_workflow import artifacts, jobs, plotting
 
 
 def draw(artifact: str) -> Figure:
@@ -43,4 +43,4 @@ def draw(artifact: str) -> Figure:
 
 
 if __name__ == "__main__":
-    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw))

@@ -3,9 +3,12 @@
 from collections.abc import Sequence
 
 import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from support import artifacts, fields, jobs, plotting
+from hopper_workflow import artifacts, jobs, plotting
 
 
 def draw(
@@ -24,18 +27,8 @@ def draw(
     paths = ((wedge_paper, cone_paper), (wedge_physical, cone_physical))
     for row, mode in enumerate(("paper", "physical")):
         for column, geometry in enumerate(("wedge", "cone")):
-            axis, data = axes[row, column], artifacts.read(paths[row][column])
-            # A grid point on an eigenvalue may have the value 0.
-            height = np.log10(np.maximum(data.sigma_min, np.finfo(float).tiny))
-            axis.contourf(data["real"], data["imag"], height, levels=levels, cmap=_CMAP,
-                          norm=norm, extend="both", alpha=0.45)  # fmt: skip
-            axis.contour(data["real"], data["imag"], height, levels=levels, cmap=_CMAP,
-                         norm=norm, linewidths=0.8)  # fmt: skip
-            values = fields.as_complex(data, "eigenvalue")
-            axis.plot(values.real, values.imag, "k.", markersize=2.5)
-            axis.axvline(0, color="0.5", linewidth=0.6)
-            axis.set_xlim(data["real"][0], data["real"][-1])
-            axis.set_ylim(data["imag"][0], data["imag"][-1])
+            axis = axes[row, column]
+            _draw_contours(axis, artifacts.read(paths[row][column]), levels, norm)
             axis.set_title(f"{geometry}, {mode} mode, {_NORMS[norms[mode]]} norm")
     for axis in axes[1]:
         axis.set_xlabel(r"Re $z$")
@@ -45,8 +38,21 @@ def draw(
     return figure
 
 
+def _draw_contours(axis: Axes, data: xr.Dataset, levels: Sequence[float], norm: Normalize) -> None:
+    # A grid point on an eigenvalue may have the value 0.
+    height = np.log10(np.maximum(data.sigma_min, np.finfo(float).tiny))
+    plane, look = (data["real"], data["imag"], height), {"levels": levels, "cmap": _CMAP}
+    axis.contourf(*plane, norm=norm, extend="both", alpha=0.45, **look)
+    axis.contour(*plane, norm=norm, linewidths=0.8, **look)
+    values = data.eigenvalue.to_numpy()
+    axis.plot(values.real, values.imag, "k.", markersize=2.5)
+    axis.axvline(0, color="0.5", linewidth=0.6)
+    axis.set_xlim(data["real"][0], data["real"][-1])
+    axis.set_ylim(data["imag"][0], data["imag"][-1])
+
+
 _CMAP = "viridis"
 _NORMS = {"discrete": "discrete", "L2": "$L_2$"}
 
 if __name__ == "__main__":
-    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw))

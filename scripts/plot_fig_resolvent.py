@@ -1,8 +1,12 @@
 """Resolvent norm along the imaginary axis, and the Kreiss bound against the measured growth."""
 
+from typing import Any
+
+import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from support import artifacts, jobs, plotting
+from hopper_workflow import artifacts, jobs, plotting
 
 
 def draw(wedge_paper: str, cone_paper: str, wedge_physical: str, cone_physical: str) -> Figure:
@@ -16,14 +20,7 @@ def draw(wedge_paper: str, cone_paper: str, wedge_physical: str, cone_physical: 
             ("physical", physical, plotting.ORANGE),
         ):
             data = artifacts.read(path)
-            top.semilogy(data.frequency, data.resolvent, color=color, linewidth=0.9,
-                         label=f"{mode}, full matrix")  # fmt: skip
-            top.semilogy(data.frequency, data.resolvent_kept, color=color, linewidth=0.9,
-                         linestyle="--", label=f"{mode}, kept modes")  # fmt: skip
-            bottom.semilogy(data.elapsed, data.relative_growth, color=color, linewidth=0.9,
-                            label=f"{mode}")  # fmt: skip
-            bottom.axhline(float(data.kreiss_bound), color=color, linestyle="--", linewidth=0.9,
-                           label=f"{mode}, Kreiss bound")  # fmt: skip
+            _draw_mode(top, bottom, data, mode, {"color": color, "linewidth": 0.9})
         near = [float(artifacts.read(path).distance) for path in (paper, physical)]
         top.set_title(f"{geometry}: distance {near[0]:.2g} (paper), {near[1]:.2g} (physical)")
         top.set_xlabel(r"$y$")
@@ -38,5 +35,13 @@ def draw(wedge_paper: str, cone_paper: str, wedge_physical: str, cone_physical: 
     return figure
 
 
+def _draw_mode(top: Axes, bottom: Axes, data: xr.Dataset, mode: str, look: dict[str, Any]) -> None:
+    dashed = {**look, "linestyle": "--"}
+    top.semilogy(data.frequency, data.resolvent, label=f"{mode}, full matrix", **look)
+    top.semilogy(data.frequency, data.resolvent_kept, label=f"{mode}, kept modes", **dashed)
+    bottom.semilogy(data.elapsed, data.relative_growth, label=mode, **look)
+    bottom.axhline(float(data.kreiss_bound), label=f"{mode}, Kreiss bound", **dashed)
+
+
 if __name__ == "__main__":
-    jobs.run(plotting.saving(draw), snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(plotting.saving(draw))

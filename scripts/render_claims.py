@@ -7,9 +7,9 @@ from pathlib import Path
 
 import jinja2
 
-from claims.finding import FAILS, HOLDS, LIMITED, UNDECIDED, VERDICTS
-from claims.words import read_not_judged
-from support import artifacts, jobs
+from hopper_workflow import artifacts, jobs
+from hopper_workflow.claims.finding import FAILS, HOLDS, LIMITED, UNDECIDED, VERDICTS
+from hopper_workflow.claims.words import read_not_judged
 
 # Colours of a contrast of at least 7 : 1; the mark and the words say the same without them.
 STYLES = {
@@ -22,15 +22,24 @@ _NAMES = "sigma|psi|delta|theta|phi|mu|lambda|kappa|alpha|omega|chi|rho|epsilon|
 # Whole words, perhaps with an index, or one after the other as in T_phiphi.
 _LETTERS = rf"(?:(?<![A-Za-z])|(?<=phi|eta))(?:{_NAMES})(?=(?:phi|theta)?(?![A-Za-z]))"
 _NOTATION = (
-    (r"sqrt\((\d+)\)", r"√\1"), (r" deg\b", "°"), (r"\^2", "²"), (r"\^-2", "⁻²"),
-    ("<=", "≤"), (r" x_1\b", " x₁"),
-)  # fmt: skip
+    (r"sqrt\((\d+)\)", r"√\1"),
+    (r" deg\b", "°"),
+    (r"\^2", "²"),
+    (r"\^-2", "⁻²"),
+    ("<=", "≤"),
+    (r" x_1\b", " x₁"),
+)
 
 
 def render_claims(
-    table: str, claims: str, schema: str, html_template: str, markdown_template: str, html: str,
+    table: str,
+    claims: str,
+    schema: str,
+    html_template: str,
+    markdown_template: str,
+    html: str,
     markdown: str,
-) -> None:  # fmt: skip
+) -> None:
     """Render the ledger at ``table``; ``claims`` adds what has no verdict."""
     with Path(table).open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
@@ -52,9 +61,11 @@ def render_claims(
 
 def _environment(escape: bool) -> jinja2.Environment:
     environment = jinja2.Environment(
-        autoescape=escape, trim_blocks=False, undefined=jinja2.StrictUndefined,
+        autoescape=escape,
+        trim_blocks=False,
+        undefined=jinja2.StrictUndefined,
         keep_trailing_newline=True,
-    )  # fmt: skip
+    )
     environment.filters["figure"] = figure
     environment.filters["cell"] = cell
     environment.filters["symbols"] = symbols
@@ -89,4 +100,4 @@ def cell(text: str) -> str:
 
 
 if __name__ == "__main__":
-    jobs.run(render_claims, snakemake)  # type: ignore[name-defined]  # noqa: F821
+    jobs.run(render_claims)

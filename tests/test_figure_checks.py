@@ -16,7 +16,7 @@ import pytest
 import xarray as xr
 from matplotlib.testing.compare import compare_images
 
-from support import plotting
+from hopper_workflow import plotting
 from tests.figures import images, numbers, registry, structure
 from tests.figures.registry import ROOT
 

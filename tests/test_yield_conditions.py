@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize_scalar
 
+from hopper import yield_condition
 from hopper.errors import InvalidParameterError, WallFrictionError
-from hopper.yield_conditions import MOHR_COULOMB, VON_MISES, yield_condition
+from hopper.yield_conditions import MOHR_COULOMB, VON_MISES
 from tests.radial import witness
 
 MODELS = {"mohr-coulomb": MOHR_COULOMB, "von-mises": VON_MISES}

@@ -1,8 +1,5 @@
 """Typed errors. Messages are one line, in degrees, and name the remedy."""
 
-from math import degrees, pi
-from typing import Self
-
 
 class HopperError(Exception):
     """Base of every error this package raises on purpose."""
@@ -44,22 +41,8 @@ class ConvergenceError(HopperError):
     """An iteration did not reach an acceptable error; the message names the achieved one."""
 
 
-class TangencyError(HopperError):
-    """A characteristic is tangent to the arcs r = const: t = log r is not like time beyond.
-
-    It happens where psi reaches pi/4 - delta/2, first at ``theta`` (radians).
-    """
-
-    def __init__(self, message: str, theta: float) -> None:
-        super().__init__(message)
-        self.theta = theta
-
-    @classmethod
-    def at(cls, delta: float, theta: float) -> Self:
-        """Return the error for a material (radians) and the place of tangency (radians)."""
-        return cls(
-            f"linear stability is not defined: psi reaches pi/4 - delta/2 = "
-            f"{degrees(pi / 4 - delta / 2):.6g} deg at theta = {degrees(theta):.6g} deg, where a "
-            "characteristic is tangent to the arc r = const; lower the wall friction",
-            theta,
-        )
+def not_resolved_because(friction_angle: float) -> str:
+    """Return why a solution for a wall friction (radians) may be hard to resolve, and a remedy."""
+    if friction_angle > 0:
+        return "psi is too close to its singular value, lower the wall friction"
+    return "delta or the half angle is extreme, take another one"

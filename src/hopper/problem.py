@@ -1,15 +1,16 @@
 """A hopper and its material: the parameters every computation starts from."""
 
 from dataclasses import dataclass
-from math import degrees, isfinite, pi, sin
-from numbers import Real
+from math import sin
 from typing import Literal, cast, get_args
 
-import numpy as np
 from numpy.typing import ArrayLike
 
+from hopper.arguments import checked
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.errors import InvalidParameterError
+from hopper.values import real_row, require_angle, shown
 from hopper.yield_conditions import MOHR_COULOMB, VON_MISES, YieldCondition
 
 Geometry = Literal["wedge", "cone"]
@@ -40,17 +41,17 @@ class Hopper:
     half_angle: float
     material: YieldCondition = MOHR_COULOMB
 
+    __repr__ = brief("geometry", "delta deg", "half_angle deg", "material.name")
+
     def __post_init__(self) -> None:
-        if self.geometry not in get_args(Geometry):
-            raise InvalidParameterError(
-                f"geometry = {self.geometry!r} is unknown: use wedge or cone"
-            )
+        as_geometry(self.geometry)
         for name in ("delta", "half_angle"):
             require_angle(name, getattr(self, name))
+            object.__setattr__(self, name, float(getattr(self, name)))
         material: object = self.material
         if not isinstance(material, YieldCondition):
             raise InvalidParameterError(
-                f"material = {material!r} is not a yield condition: use yield_condition(name)"
+                f"material = {shown(material)} is not a yield condition: use yield_condition(name)"
             )
         if self.material == VON_MISES and self.geometry == "wedge":
             raise InvalidParameterError(
@@ -68,26 +69,6 @@ class Hopper:
         return sin(self.delta)
 
 
-def require_angle(name: str, value: float, *, zero_allowed: bool = False) -> None:
-    """Check that an angle in radians is finite and inside (0, pi/2), or [0, pi/2).
-
-    Raises
-    ------
-    InvalidParameterError
-        If it is not; the message states the value in degrees.
-    """
-    # numpy scalars and ints are welcome, strings and arrays are not.
-    if not is_real(value):
-        raise InvalidParameterError(f"{name} = {value!r} is not a number: give radians")
-    angle = float(value)
-    inside = 0 <= angle < pi / 2 if zero_allowed else 0 < angle < pi / 2
-    if not (isfinite(angle) and inside):
-        interval = "[0, 90)" if zero_allowed else "(0, 90)"
-        raise InvalidParameterError(
-            f"{name} = {degrees(angle):.6g} deg is out of range: it must lie in {interval} deg"
-        )
-
-
 def as_geometry(name: str) -> Geometry:
     """Return ``name`` as a Geometry.
 
@@ -96,25 +77,18 @@ def as_geometry(name: str) -> Geometry:
     InvalidParameterError
         If it is neither wedge nor cone.
     """
-    if name not in get_args(Geometry):
-        raise InvalidParameterError(f"geometry = {name!r} is unknown: use wedge or cone")
+    if not isinstance(name, str) or name not in get_args(Geometry):
+        raise InvalidParameterError(f"geometry = {shown(name)} is unknown: use wedge or cone")
     return cast(Geometry, name)
 
 
+@checked
 def as_angles(name: str, values: ArrayLike) -> Array:
     """Return real numbers as an array, shape (n,).
 
     Raises
     ------
     InvalidParameterError
-        If they are not real numbers.
+        If they are not finite real numbers, one or a row of them.
     """
-    array = np.atleast_1d(np.asarray(values))
-    if array.dtype.kind not in "fiu":
-        raise InvalidParameterError(f"{name} must be real numbers, in radians")
-    return array.astype(float)
-
-
-def is_real(value: object) -> bool:
-    """Whether a value is a real number: not a string, not complex, not an array."""
-    return isinstance(value, Real)
+    return real_row(name, values, "angles")

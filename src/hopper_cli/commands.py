@@ -4,26 +4,27 @@ import json
 from argparse import Namespace
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
-from math import isfinite, radians
+from math import degrees, isfinite, radians
 from pathlib import Path
 from typing import Any
 
+from hopper.arrays import Array, Complex
 from hopper.assessment.limits import assess_limits, tangency_coefficient
-from hopper.assessment.neutral import assess_neutral, largest_neutral_coefficient
-from hopper.assessment.quantity import Quantity
+from hopper.assessment.neutral import Interval, NeutralPoint, assess_neutral
 from hopper.assessment.radial import assess_radial
-from hopper.assessment.stability import assess_stability
-from hopper.assessment.summary import assess
-from hopper.domain.neutral import NoNeutralPointError
-from hopper.errors import ConvergenceError, HopperError, TangencyError, WallFrictionError
+from hopper.assessment.stability import StabilityAssessment, assess_stability
+from hopper.errors import ConvergenceError, WallFrictionError
 from hopper.problem import as_geometry
+from hopper.quantity import Quantity
 from hopper.radial.solution import solve_radial
-from hopper_cli import answers, text
-from hopper_cli.answers import Part
+from hopper.stability.collocation import Parity
+from hopper_cli import sentences, text
 from hopper_cli.errors import UsageError
-from hopper_cli.files import write_csv
-from hopper_cli.inputs import Case, Wall
-from hopper_cli.rows import Row
+from hopper_cli.outputs import write_csv
+from hopper_data import assessments, tables
+from hopper_data.assessments import Part
+from hopper_data.inputs import Case, Wall
+from hopper_data.tables import Row
 
 
 def answer(options: Namespace) -> str:
@@ -48,79 +49,127 @@ def _radial(options: Namespace) -> str:
         limit = assess_limits(case.hopper).coefficient
         raise _explained(error, "a radial solution", limit) from None
     _write(options, case, found)
-    rows = answers.radial_rows(found)
-    limits = answers.limit_rows(found.limits)
+    rows = tables.rows(found, assessments.RADIAL)
+    limits = tables.rows(found.limits, assessments.LIMITS)
     end = found.limits.friction and found.limits.friction.end
     if options.json:
-        main = [row for row in rows + limits if row.key not in ("mu_limit", "mu_tangency")]
+        main = [
+            row for row in rows + limits if row.variable.name not in ("mu_limit", "mu_tangency")
+        ]
         return _json(
             case.echoed(),
             rows + limits,
             limit_end=end,
-            error_estimate=answers.largest_relative_error(main),
-            notes=found.notes,
+            error_estimate=max(row.relative_error for row in main),
+            notes=[*options.doubts, *found.notes],
         )
-    shown = [row for row in limits if row.key != "mu_limit" or end != "fold"]
+    shown = [row for row in limits if row.variable.name != "mu_limit" or end != "fold"]
     return _text(
         f"Radial solution: {case}",
         text.number_cells(rows + shown),
-        [*found.notes, answers.radial_sentence(found)],
+        [*found.notes, sentences.radial_sentence(found)],
     )
 
 
 def _stability(options: Namespace) -> str:
     case = _case(options)
-    hopper = case.hopper
-    solution = solve_radial(hopper, case.wall.friction_angle)
-    try:
-        found = assess_stability(solution)
-    except (TangencyError, ConvergenceError) as error:
-        limit = tangency_coefficient(hopper)
-        if limit is None and assess(hopper, 0.0).outcome == "tangent_characteristic":
-            raise HopperError(f"{error}; not even a smooth wall has a verdict") from None
-        raise _explained(error, "a verdict", limit) from None
+    found = _assessed_stability(case, options)
     _write(options, case, found)
-    rows = answers.stability_rows(found)
-    rows.append(answers.tangency_row(tangency_coefficient(hopper)))
-    modes = found.result.eigenvalues
+    rows = tables.rows(found, assessments.STABILITY)
+    rows += tables.rows({"tangency": tangency_coefficient(case.hopper)}, assessments.TANGENCY)
+    shown = {
+        parity: (modes.eigenvalues[: options.modes], modes.errors[: options.modes])
+        for parity, modes in found.modes.items()
+    }
+    notes = [
+        f"only {values.size} low {parity} modes are resolved"
+        for parity, (values, _) in shown.items()
+        if values.size < options.modes
+    ]
     if options.json:
         return _json(
             case.echoed(),
             rows,
-            eigenvalues=[[mode.real, mode.imag] for mode in modes.tolist()],
+            **{key: _pairs(shown.get(parity)) for parity, key in _JSON.items()},
             governed_by=found.result.governed_by,
+            parity=found.result.parity,
             verdict=found.verdict,
+            disturbances="any" if "asymmetric" in shown else "symmetric",
             error_estimate=found.abscissa.error,
-            errors={"eigenvalues": found.mode_errors.tolist()},
+            notes=[*options.doubts, *notes],
+            errors={_JSON[parity]: errors.tolist() for parity, (_, errors) in shown.items()},
         )
     cells = [
-        (f"eigenvalue {number}", text.complex_with_error(mode, error))
-        for number, (mode, error) in enumerate(zip(modes, found.mode_errors, strict=True), 1)
+        (f"{parity} eigenvalue {number}", text.complex_with_error(value, error))
+        for parity, pairs in shown.items()
+        for number, (value, error) in enumerate(zip(*pairs, strict=True), start=1)
     ]
     return _text(
         f"Linear stability: {case}",
         cells + text.number_cells(rows),
-        [answers.stability_sentence(found)],
+        [*notes, sentences.stability_sentence(case.geometry, found)],
     )
+
+
+def _assessed_stability(case: Case, options: Namespace) -> StabilityAssessment:
+    try:
+        solution = solve_radial(case.hopper, case.wall.friction_angle)
+        return assess_stability(solution, options.disturbances, options.modes)
+    except ConvergenceError as error:
+        limit = assess_limits(case.hopper).coefficient
+        raise _explained(error, "a radial solution", limit) from None
+
+
+_JSON: dict[Parity, str] = {"symmetric": "eigenvalues", "asymmetric": "asymmetric_eigenvalues"}
+
+
+def _pairs(modes: tuple[Complex, Array] | None) -> list[list[float]] | None:
+    return modes and [[mode.real, mode.imag] for mode in modes[0].tolist()]
 
 
 def _neutral(options: Namespace) -> str:
     geometry, half_angle = as_geometry(options.geometry), radians(options.half_angle)
     wall = Wall.of(options.mu, options.phi)
-    try:
-        found = assess_neutral(geometry, half_angle, wall.friction_angle)
-    except NoNeutralPointError as error:
-        limit = largest_neutral_coefficient(geometry, half_angle)
-        raise _explained(error, "a neutral delta", limit) from None
-    rows = answers.neutral_rows(found)
+    found = assess_neutral(geometry, half_angle, wall.friction_angle, options.disturbances)
+    rows = tables.rows(found, assessments.NEUTRAL)
     inputs = {"geometry": geometry, "half_angle_deg": options.half_angle, **asdict(wall)}
     if options.json:
-        return _json(inputs, rows, governed_by=found.governed_by, error_estimate=rows[0].error)
+        first = found.points[0] if found.points else None
+        return _json(
+            inputs,
+            rows,
+            neutral_points=[_point(point) for point in found.points],
+            stable_intervals_deg=[_interval(interval) for interval in found.intervals],
+            governed_by=first and first.governed_by,
+            parity=first and first.parity,
+            error_estimate=first and rows[0].error,
+            notes=options.doubts,
+        )
     return _text(
         f"Neutral stability: {geometry}, half angle {options.half_angle:g} deg, {wall}",
-        text.number_cells(rows),
-        [answers.neutral_sentence(found)],
+        text.neutral_cells(found),
+        [sentences.neutral_sentence(geometry, found)],
     )
+
+
+def _point(point: NeutralPoint) -> dict[str, Any]:
+    return {
+        "delta_deg": degrees(point.delta.value),
+        "error_deg": degrees(point.delta.error),
+        "governed_by": point.governed_by,
+        "parity": point.parity,
+    }
+
+
+def _interval(interval: Interval) -> dict[str, Any]:
+    return {
+        "lower": degrees(interval.lower.value),
+        "upper": degrees(interval.upper.value),
+        "lower_error": degrees(interval.lower.error),
+        "upper_error": degrees(interval.upper.error),
+        "lower_end": interval.lower_end,
+        "upper_end": interval.upper_end,
+    }
 
 
 def _case(options: Namespace) -> Case:
@@ -139,11 +188,11 @@ def _case(options: Namespace) -> Case:
     return case
 
 
-def _explained(error: HopperError, what: str, mu: Quantity | None) -> HopperError:
+def _explained(error: ConvergenceError, what: str, mu: Quantity | None) -> ConvergenceError:
     """Return the error with the largest friction that has ``what``, where that is known."""
     if mu is None:
         return error
-    return HopperError(f"{error}; the largest friction with {what} is {Wall.of(mu.value)}")
+    return type(error)(f"{error}; the largest friction with {what} is {Wall.of(mu.value)}")
 
 
 def _text(title: str, cells: Sequence[tuple[str, str]], sentences: Sequence[str]) -> str:
@@ -151,9 +200,10 @@ def _text(title: str, cells: Sequence[tuple[str, str]], sentences: Sequence[str]
 
 
 def _json(inputs: dict[str, Any], rows: Sequence[Row], **more: Any) -> str:
-    errors = {row.key: row.error for row in rows if row.error is not None}
+    rows = [*rows, *(row.in_degrees() for row in rows if row.variable.units == "radian")]
+    errors = {row.variable.name: row.error for row in rows if row.error is not None}
     errors |= more.pop("errors", {})
-    numbers = {row.key: row.value for row in rows}
+    numbers = {row.variable.name: row.value for row in rows}
     document = {**inputs, **numbers, **more, "errors": errors}
     return json.dumps(_finite(document), indent=2, allow_nan=False)
 
@@ -186,10 +236,12 @@ def _guarded(option: str, path: Path, write: Callable[[Path], None]) -> None:
 
 def _write_profile(path: Path, case: Case, found: Part) -> None:
     if path.suffix.lower() == ".nc":
-        from hopper_cli import datasets
+        from hopper_data import results
 
-        datasets.write(path, case, found)
+        results.write_part(path, case, found)
         return
-    columns = answers.columns(found)
-    header = [f"{column.key} [{column.scale or column.units}]" for column in columns]
-    write_csv(path, header, zip(*(column.values.tolist() for column in columns), strict=True))
+    result, table = assessments.arrays(found)
+    columns = [part for variable in table for part in tables.parts(variable, variable.of(result))]
+    known = [(variable, values) for variable, values in columns if values is not None]
+    header = [f"{variable.name} [{variable.scale or variable.units}]" for variable, _ in known]
+    write_csv(path, header, zip(*(values.tolist() for _, values in known), strict=True))

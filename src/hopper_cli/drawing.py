@@ -13,7 +13,8 @@ def draw_fields(axes: Sequence[Axes], delta_deg: float, fields: Mapping[str, Arr
     """Draw stress, psi and velocity over the polar angle, on three axes.
 
     ``fields`` holds theta (degrees), sigma, psi (radians) and, where it is known, u. Lines mark
-    the psi at which linear stability ends for ``delta_deg``, and at which the velocity is singular.
+    the psi at which r = const is characteristic for ``delta_deg``, and at which the velocity is
+    singular.
     """
     theta, psi = fields["theta"], np.degrees(fields["psi"])
     stress, angle, velocity = axes

@@ -4,6 +4,7 @@ Numerics, netCDF and plots are imported once the options are known to be right a
 """
 
 import argparse
+import json
 import os
 import sys
 from collections.abc import Callable, Sequence
@@ -12,11 +13,13 @@ from math import isfinite
 from pathlib import Path
 from typing import NoReturn
 
-from hopper import __version__
+import hopper
 from hopper.errors import HopperError, InvalidParameterError
+from hopper_cli import hints
 from hopper_cli.errors import UsageError
-from hopper_cli.files import FileError, checked
+from hopper_cli.outputs import FileError, checked
 
+_FEWEST_MODES, _MOST_MODES = 1, 40
 _NO_ANSWER, _USAGE, _INTERRUPTED, _BROKEN_PIPE = 1, 2, 130, 141
 
 EXAMPLES = {
@@ -24,7 +27,8 @@ EXAMPLES = {
     "stability": "hopper stability --geometry cone --delta 40 --half-angle 20 --mu 0.3",
     "neutral": "hopper neutral --geometry cone --half-angle 10 --phi 10",
 }
-_LIBRARIES: dict[str, list[str]] = {".csv": [], ".nc": ["xarray", "netCDF4"]}
+# The extra of the distribution and its libraries that a file of this suffix needs.
+_LIBRARIES = {".csv": ("", list[str]()), ".nc": ("data", ["xarray", "netCDF4"])}
 _EXIT_CODES = """\
 exit codes:
   0 answered, 1 there is no answer (the reason is on stderr), 2 wrong options or files"""
@@ -40,19 +44,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     The answer goes to stdout, errors to stderr as one line each.
     """
+    given = sys.argv[1:] if arguments is None else arguments
     try:
-        options = _parser().parse_args(arguments)
-        _check(options)
-        # Only now: the numerics take most of the time.
-        from hopper_cli import commands
-
-        print(commands.answer(options), flush=True)
-    except SystemExit as finished:  # --help and --version
-        return int(finished.code or 0)
-    except (UsageError, InvalidParameterError) as error:
-        return _fail(error, _USAGE)
-    except HopperError as error:
-        return _fail(error, _NO_ANSWER)
+        return _run(given)
     except KeyboardInterrupt:
         return _INTERRUPTED
     except OSError as error:
@@ -61,11 +55,36 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if isinstance(error, BrokenPipeError):
             return _BROKEN_PIPE
         return _fail(f"standard output: {error.strerror}", _NO_ANSWER)
+
+
+def _run(arguments: Sequence[str]) -> int:
+    """Print the answer, or why there is none; with ``--json`` both are JSON on stdout."""
+    doubts: list[str] = []
+    try:
+        options = _parser().parse_args(arguments)
+        options.doubts = doubts = hints.doubts(options)
+        _check(options)
+        # Only now: the numerics take most of the time.
+        from hopper_cli import commands
+
+        answer = commands.answer(options)
+    except SystemExit as finished:  # --help and --version
+        return int(finished.code or 0)
+    except HopperError as error:
+        usage = isinstance(error, InvalidParameterError | UsageError)
+        message = "; ".join([str(error), *doubts])
+        if "--json" in arguments:
+            document = {"error": {"kind": type(error).__name__, "message": message}}
+            print(json.dumps(document, indent=2), flush=True)
+        return _fail(message, _USAGE if usage else _NO_ANSWER)
+    for doubt in doubts:
+        print(f"hopper: warning: {doubt}", file=sys.stderr)
+    print(answer, flush=True)
     return 0
 
 
-def _fail(error: Exception | str, code: int) -> int:
-    print(f"hopper: error: {error}", file=sys.stderr)
+def _fail(message: str, code: int) -> int:
+    print(f"hopper: error: {message}", file=sys.stderr)
     return code
 
 
@@ -78,7 +97,7 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
-    parser.add_argument("--version", action="version", version=f"hopper {__version__}")
+    parser.add_argument("--version", action="version", version=f"hopper {hopper.__version__}")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     radial = _command(
         commands, "radial", "the radial solution: stresses, psi, velocity, flow factor, limits"
@@ -87,26 +106,52 @@ def _parser() -> argparse.ArgumentParser:
         commands, "stability", "linear stability: low eigenvalues, asymptotic line, verdict"
     )
     for command, profile in ((radial, "fields over the polar angle"), (stability, "eigenvalues")):
-        _add_geometry(command)
-        command.add_argument(
-            "--model", choices=["mohr-coulomb", "von-mises"], default="mohr-coulomb",
-            help="yield condition, default %(default)s; von-mises: cones, radial fields only",
-        )  # fmt: skip
-        command.add_argument(
-            "--delta", type=_angle, required=True, metavar="DEG", help="angle of internal friction"
-        )
-        _add_half_angle_and_wall(command)
-        command.add_argument(
-            "--profile", type=Path, metavar="FILE", help=f"write {profile} to FILE.csv or FILE.nc"
-        )
-        command.add_argument(
-            "--plot", type=Path, metavar="FILE", help="draw them in FILE.png, .pdf or .svg"
-        )
-        command.add_argument("--force", action="store_true", help="overwrite existing files")
-    neutral = _command(commands, "neutral", "the internal friction at which stability changes")
+        _add_hopper(command)
+        _add_files(command, profile)
+    stability.add_argument(
+        "--modes",
+        type=_count,
+        default=6,
+        metavar="N",
+        help="low modes of each parity wanted, default %(default)s",
+    )
+    neutral = _command(
+        commands, "neutral", "the internal frictions at which stability changes, and what is stable"
+    )
     _add_geometry(neutral)
     _add_half_angle_and_wall(neutral)
+    for command in (stability, neutral):
+        command.add_argument(
+            "--disturbances",
+            choices=["symmetric", "any"],
+            help="default: any for wedges; of cones only symmetric ones are known, which are "
+            "axisymmetric and without swirl",
+        )
     return parser
+
+
+def _add_hopper(command: argparse.ArgumentParser) -> None:
+    _add_geometry(command)
+    command.add_argument(
+        "--model",
+        choices=["mohr-coulomb", "von-mises"],
+        default="mohr-coulomb",
+        help="yield condition, default %(default)s; von-mises: cones, radial fields only",
+    )
+    command.add_argument(
+        "--delta", type=_angle, required=True, metavar="DEG", help="angle of internal friction"
+    )
+    _add_half_angle_and_wall(command)
+
+
+def _add_files(command: argparse.ArgumentParser, profile: str) -> None:
+    command.add_argument(
+        "--profile", type=Path, metavar="FILE", help=f"write {profile} to FILE.csv or FILE.nc"
+    )
+    command.add_argument(
+        "--plot", type=Path, metavar="FILE", help="draw them in FILE.png, .pdf or .svg"
+    )
+    command.add_argument("--force", action="store_true", help="overwrite existing files")
 
 
 def _command(
@@ -120,7 +165,11 @@ def _command(
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
-    command.add_argument("--json", action="store_true", help="print JSON; psi is in radians")
+    command.add_argument(
+        "--json",
+        action="store_true",
+        help="print JSON, errors too; psi_wall and psi_max are in radians, ..._deg in degrees",
+    )
     return command
 
 
@@ -130,7 +179,11 @@ def _add_geometry(command: argparse.ArgumentParser) -> None:
 
 def _add_half_angle_and_wall(command: argparse.ArgumentParser) -> None:
     command.add_argument(
-        "--half-angle", type=_angle, required=True, metavar="DEG", help="half opening angle"
+        "--half-angle",
+        type=_angle,
+        required=True,
+        metavar="DEG",
+        help="half opening angle, from the vertical",
     )
     wall = command.add_mutually_exclusive_group(required=True)
     wall.add_argument("--mu", type=_coefficient, help="coefficient of wall friction, tan(phi)")
@@ -159,6 +212,13 @@ def _coefficient(text: str) -> float:
     return _number(text, "a number from 0 to 1000", lambda value: 0 <= value <= 1000)
 
 
+def _count(text: str) -> int:
+    meaning = f"a whole number from {_FEWEST_MODES} to {_MOST_MODES}"
+    return int(
+        _number(text, meaning, lambda n: _FEWEST_MODES <= n <= _MOST_MODES and n.is_integer())
+    )
+
+
 def _check(options: argparse.Namespace) -> None:
     """Find what the parser cannot: options that do not go together, files, missing libraries.
 
@@ -167,6 +227,11 @@ def _check(options: argparse.Namespace) -> None:
     UsageError
         If an option is wrong.
     """
+    if getattr(options, "disturbances", None) == "any" and options.geometry == "cone":
+        raise UsageError(
+            "argument --disturbances: asymmetric disturbances are singular at the apex of a cone: "
+            "use symmetric or --geometry wedge"
+        )
     if options.command == "neutral":
         return
     if options.model == "von-mises" and options.geometry == "wedge":
@@ -189,10 +254,12 @@ def _check(options: argparse.Namespace) -> None:
             checked(path, suffixes, overwrite=options.force)
         except FileError as error:
             raise UsageError(f"argument {option}: {error}") from None
-        for library in _LIBRARIES.get(path.suffix.lower(), ["matplotlib"]):
+        extra, libraries = _LIBRARIES.get(path.suffix.lower(), ("plot", ["matplotlib"]))
+        for library in libraries:
             if find_spec(library) is None:
                 raise UsageError(
-                    f"argument {option}: {path.suffix} needs {library}: install hopper[workflow]"
+                    f"argument {option}: {path.suffix} needs {library}: install "
+                    f"granular-hopper[{extra}]"
                 )
 
 

@@ -14,11 +14,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from hopper import __version__
+from hopper import Hopper, __version__
 from hopper.assessment.radial import assess_radial
 from hopper.assessment.stability import assess_stability
-from hopper.errors import ConvergenceError
-from hopper.problem import Hopper
+from hopper.errors import ConvergenceError, not_resolved_because
 from hopper_cli import commands, text
 from hopper_cli.main import EXAMPLES, main
 
@@ -27,9 +26,15 @@ STEEL = "--geometry cone --model mohr-coulomb --delta 40 --half-angle 20 --mu 0.
 SINGULAR = "--geometry cone --delta 25 --half-angle 30 --mu 0.4"
 RADIAL_KEYS = {
     "sigma_axis", "sigma_wall", "psi_wall", "psi_max", "u_wall", "flow_factor", "mu_fold",
+    "psi_wall_deg", "psi_max_deg",
     "mass_flow_limit_deg", "error_estimate",
 }  # fmt: skip
-STABILITY_KEYS = {"eigenvalues", "line", "abscissa", "verdict", "error_estimate"}
+STABILITY_KEYS = {
+    "eigenvalues", "asymmetric_eigenvalues", "line", "abscissa", "abscissa_symmetric",
+    "abscissa_asymmetric", "governed_by", "parity", "verdict", "disturbances", "error_estimate",
+    "kappa", "transient_growth", "transient_amplification", "transient_modes", "mu_tangency",
+}  # fmt: skip
+WEDGE = "--geometry wedge --delta 40 --half-angle 20 --phi 25"
 
 
 def steel():
@@ -96,7 +101,8 @@ def test_radial(answer):
 def test_the_error_estimate_of_radial_is_the_largest_relative_one(answer):
     found = answer(f"radial {STEEL}")
     errors = found["errors"]
-    keys = RADIAL_KEYS - {"error_estimate", "psi_wall", "psi_max", "mass_flow_limit_deg"}
+    psi = {"psi_wall", "psi_max", "psi_wall_deg", "psi_max_deg"}
+    keys = RADIAL_KEYS - psi - {"error_estimate", "mass_flow_limit_deg"}
     relative = [errors[key] / found[key] for key in keys]
     relative += [errors["psi_wall"], errors["psi_max"], radians(errors["theta_psi_max_deg"])]
     assert found["error_estimate"] == pytest.approx(
@@ -111,15 +117,75 @@ def test_stability(answer):
     expected = assess_stability(solution)
     eigenvalues = np.array(found["eigenvalues"]) @ [1, 1j]
     np.testing.assert_array_equal(eigenvalues, expected.result.eigenvalues)
+    assert eigenvalues.size == 6
     assert np.all(eigenvalues.imag >= 0)
     assert np.all(np.diff(np.abs(eigenvalues)) > 0)
     assert len(found["errors"]["eigenvalues"]) == eigenvalues.size
     assert found["line"] == expected.result.line.abscissa
     assert found["abscissa"] == expected.abscissa.value
     assert found["error_estimate"] == expected.abscissa.error
-    assert found["governed_by"] == "mode"
-    assert found["verdict"] == "stable"
+    assert (found["governed_by"], found["parity"]) == ("complex mode", "symmetric")
+    assert (found["verdict"], found["disturbances"]) == ("stable", "symmetric")
+    assert found["abscissa_symmetric"] == found["abscissa"]
     assert 1 < found["transient_growth"] < found["transient_amplification"] < found["kappa"]
+
+
+def test_asymmetric_disturbances_of_a_wedge(answer):
+    found = answer(f"stability {WEDGE}")
+    assert found["abscissa_symmetric"] == pytest.approx(-0.0872, abs=5e-5)
+    assert found["abscissa"] == found["abscissa_asymmetric"] == pytest.approx(0.6649, abs=5e-5)
+    assert (found["governed_by"], found["parity"]) == ("complex mode", "asymmetric")
+    assert found["verdict"] == "stable_symmetric_only"
+    assert found["asymmetric_eigenvalues"][0][0] == found["abscissa"]
+    symmetric = answer(f"stability {WEDGE} --disturbances symmetric")
+    assert (symmetric["verdict"], symmetric["parity"]) == ("stable", "symmetric")
+    assert symmetric["asymmetric_eigenvalues"] is symmetric["abscissa_asymmetric"] is None
+    assert symmetric["abscissa"] == found["abscissa_symmetric"]
+    assert symmetric["eigenvalues"] == found["eigenvalues"]
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 15])
+def test_as_many_modes_as_asked_for(answer, count):
+    found = answer(f"stability {WEDGE} --modes {count}")
+    for key in ("eigenvalues", "asymmetric_eigenvalues"):
+        assert len(found[key]) == len(found["errors"][key]) == count
+    assert found["verdict"] == "stable_symmetric_only"
+
+
+def test_beyond_the_tangency_and_up_to_the_limit(answer):
+    found = answer("stability --geometry cone --delta 35 --half-angle 30 --mu 0.325")
+    assert found["abscissa"] == pytest.approx(-1.04881792, abs=5e-9)
+    assert found["mu_tangency"] < 0.325
+    limit = answer("radial --geometry cone --delta 35 --half-angle 30 --mu 0.325")["mu_limit"]
+    near = answer(f"stability --geometry cone --delta 35 --half-angle 30 --mu {limit - 1e-9}")
+    assert -0.1 < near["abscissa"] < 0
+    assert near["governed_by"] == "real mode"
+
+
+def test_neutral_points_and_stable_intervals(answer):
+    found = answer("neutral --geometry cone --half-angle 30 --phi 18.5")
+    (point,), (interval,) = found["neutral_points"], found["stable_intervals_deg"]
+    assert point["delta_deg"] == found["delta_neutral_deg"] == interval["lower"]
+    assert point["delta_deg"] == pytest.approx(29.659866122956, abs=1e-9)
+    assert (point["governed_by"], point["parity"]) == ("complex mode", "symmetric")
+    assert (interval["lower_end"], interval["upper_end"]) == ("neutral", "fold")
+    edge = f"--geometry cone --half-angle 30 --delta {interval['upper']}"
+    assert answer(f"radial {edge} --phi 10")["mu_limit"] == pytest.approx(found["mu"], abs=1e-9)
+
+
+def test_no_neutral_point_is_an_answer(answer, run):
+    found = answer("neutral --geometry cone --half-angle 10 --phi 30")
+    assert found["delta_neutral_deg"] is found["governed_by"] is found["error_estimate"] is None
+    assert found["neutral_points"] == []
+    (interval,) = found["stable_intervals_deg"]
+    assert interval["lower_end"] == "fold"
+    assert interval["lower"] == pytest.approx(33.7856, abs=5e-5)
+    # 45 deg: no delta at all is stable above the neutral curve's largest phi.
+    _, out, err = run("neutral --geometry cone --half-angle 45 --phi 15")
+    assert err == ""
+    assert out.splitlines()[-1] == (
+        "No delta is stable to axisymmetric disturbances without swirl at this wall friction."
+    )
 
 
 @pytest.mark.parametrize(("phi", "delta"), [(0, 33.6739), (10, 26.1404)])
@@ -147,6 +213,7 @@ def test_friction_as_angle_or_coefficient(answer):
         ("radial --geometry cone --model von-mises --delta 30 --half-angle 30 --mu 0.2",
          {"mu_fold", "mass_flow_limit_deg", "mu_tangency"}),
         ("stability --geometry wedge --delta 35 --half-angle 10 --phi 0", {"transient_growth"}),
+        (f"stability {STEEL}", {"asymmetric_eigenvalues", "abscissa_asymmetric"}),
     ],
 )  # fmt: skip
 def test_what_does_not_exist_is_null(answer, command, null):
@@ -170,10 +237,18 @@ def test_text_for_people(run):
     _, out, _ = run(f"stability {STEEL}")
     assert re.search(r"eigenvalue 2 +-4\.36772238\d* \+ 17\.3433765\d*i \+- ", out)
     assert out.splitlines()[-1] == (
-        "Stable: perturbations decay down the hopper, governed by a low mode."
+        "Stable: axisymmetric disturbances without swirl decay down the hopper, governed by a "
+        "symmetric complex mode."
+    )
+    _, out, _ = run(f"stability {WEDGE}")
+    assert out.splitlines()[-1] == (
+        "Stable to symmetric disturbances only: asymmetric ones grow down the hopper, governed by "
+        "an asymmetric complex mode."
     )
     _, out, _ = run("neutral --geometry cone --half-angle 10 --phi 10")
-    assert out.splitlines()[-1] == "Stable above delta = 26.1404 deg, unstable just below."
+    assert out.splitlines()[-1] == (
+        "Stable to axisymmetric disturbances without swirl where delta is from 26.1404 to 89 deg."
+    )
 
 
 @pytest.mark.parametrize(
@@ -241,20 +316,26 @@ USAGE = [
     (f"stability {CONE} --model von-mises --mu 0",
      "argument --model: stability is formulated for mohr-coulomb only: use --model mohr-coulomb"),
     ("neutral --geometry cone --half-angle 10 --delta 30 --mu 0", "unrecognized arguments"),
+    (f"stability {CONE} --mu 0 --disturbances any",
+     "argument --disturbances: asymmetric disturbances are singular at the apex of a cone"),
+    ("neutral --geometry cone --half-angle 10 --mu 0 --disturbances any",
+     "argument --disturbances: asymmetric disturbances are singular at the apex of a cone"),
+    (f"stability {CONE} --mu 0 --disturbances odd", "argument --disturbances: invalid choice"),
+    (f"stability {CONE} --mu 0 --modes 0",
+     "argument --modes: 0 is out of range: give a whole number from 1 to 40"),
+    (f"stability {CONE} --mu 0 --modes 2.5", "argument --modes: 2.5 is out of range"),
 ]  # fmt: skip
 NO_ANSWER = [
     (f"radial {CONE} --mu 0.36",
      "no radial solution at phi = 19.7989 deg (mu = 0.36): the largest friction that has one is "
      "phi = 19.7406 deg (mu = 0.358852)"),
     (f"stability {CONE} --mu 0.36", "the largest friction that has one is phi = 19.7406 deg"),
-    (f"stability {CONE} --mu 0.33",
-     "psi reaches pi/4 - delta/2 = 30 deg at theta = 10.2132 deg, where a characteristic is "
-     "tangent to the arc r = const; lower the wall friction; the largest friction with a verdict "
-     "is mu = 0.302056 (phi = 16.8072 deg)"),
-    ("stability --geometry cone --delta 65 --half-angle 45 --mu 0", "not even a smooth wall has"),
+    ("stability --geometry wedge --delta 45 --half-angle 10 --phi 44.999",
+     "psi is too close to its singular value, lower the wall friction; the largest friction with a "
+     "radial solution is mu = 1"),
     ("radial --geometry cone --delta 8 --half-angle 10 --mu 0", "raise delta"),
-    ("neutral --geometry cone --half-angle 10 --phi 19",
-     "the largest friction with a neutral delta is mu = 0.32504"),
+    ("neutral --geometry cone --half-angle 45 --phi 40",
+     "no cone of half angle 45 deg has a resolved radial solution at phi = 40 deg: lower the"),
 ]  # fmt: skip
 
 
@@ -271,7 +352,7 @@ def test_a_wrong_option_is_named(run, command, message):
 
 @pytest.mark.parametrize(("command", "message"), NO_ANSWER)
 def test_where_there_is_no_answer_the_limit_is_named(run, command, message):
-    code, out, err = run(f"{command} --json")
+    code, out, err = run(command)
     assert (code, out) == (1, "")
     assert is_one_error(err, message), err
 
@@ -284,7 +365,8 @@ def test_fields_that_do_not_converge(run, monkeypatch):
     code, out, err = run(f"radial {STEEL}")
     assert (code, out) == (1, "")
     assert is_one_error(err, "not resolved; the largest friction with a radial solution is mu = ")
-    code, out, err = run("radial --geometry cone --delta 1 --half-angle 89 --mu 0.001")
+    monkeypatch.setattr("hopper.assessment.limits.friction_limit", fail)
+    code, out, err = run(f"radial {STEEL}")
     assert code == 1
     assert err == "hopper: error: radial solution not resolved\n"
 
@@ -328,7 +410,8 @@ def test_eigenvalues_as_csv(run, answer, tmp_path):
         header, *rows = csv.reader(file)
     assert header == ["eigenvalue_real [1]", "eigenvalue_imag [1]", "eigenvalue_error [1]"]
     table = np.array(rows, float)
-    np.testing.assert_array_equal(table[: len(low), :2], low)
+    difference = (table[: len(low), :2] - low) @ [1, 1j]
+    assert np.all(np.abs(difference) <= table[: len(low), 2])
     assert len(table) > len(low)
     assert np.all(table[:, 2] > 0)
 
@@ -418,7 +501,12 @@ def test_a_missing_library_is_named_before_the_work(run, tmp_path, monkeypatch):
     monkeypatch.setattr("hopper_cli.main.find_spec", lambda name: None)
     code, _, err = run(f"radial {STEEL} --plot {tmp_path / 'out.png'}")
     assert code == 2
-    assert is_one_error(err, "argument --plot: .png needs matplotlib: install hopper[workflow]")
+    assert is_one_error(
+        err, "argument --plot: .png needs matplotlib: install granular-hopper[plot]"
+    )
+    code, _, err = run(f"radial {STEEL} --profile {tmp_path / 'out.nc'}")
+    assert code == 2
+    assert is_one_error(err, "argument --profile: .nc needs xarray: install granular-hopper[data]")
 
 
 @pytest.mark.parametrize("option", ["--profile old.csv", "--profile old.nc", "--plot old.png"])
@@ -449,9 +537,97 @@ def test_a_write_that_fails_leaves_the_old_file(run, tmp_path, monkeypatch, suff
 
 
 def test_no_answer_leaves_no_file(run, tmp_path):
-    code, _, _ = run(f"stability {CONE} --mu 0.33 --profile {tmp_path / 'out.csv'}")
+    code, _, _ = run(f"stability {CONE} --mu 0.36 --profile {tmp_path / 'out.csv'}")
     assert code == 1
     assert list(tmp_path.iterdir()) == []
+
+
+# --- doubts, refusals ----------------------------------------------------------------------------
+
+
+RADIANS = "--geometry cone --delta 0.698 --half-angle 0.349"
+
+
+@pytest.mark.parametrize(
+    "command",
+    [f"radial {RADIANS} --phi 0.29", f"radial {RADIANS} --mu 0.005", f"stability {RADIANS} --mu 0",
+     "neutral --geometry cone --half-angle 0.349 --phi 0.29"],
+)  # fmt: skip
+def test_radians_are_doubted(run, command):
+    code, out, err = run(f"{command} --json")
+    assert "all angles are below 1.6 degrees: are they in radians? give degrees" in err + out
+    if code == 0:
+        assert err.startswith("hopper: warning: all angles")
+        assert "are they in radians" in json.loads(out)["notes"][0]
+
+
+@pytest.mark.parametrize(
+    "command", [f"radial {STEEL}", "neutral --geometry cone --half-angle 1 --mu 0.3"]
+)
+def test_degrees_are_not_doubted(run, command):
+    assert "warning" not in run(command)[2]
+
+
+def test_a_coefficient_that_looks_like_an_angle(run):
+    for command in ("radial", "stability"):
+        code, _, err = run(f"{command} {CONE} --mu 16.7")
+        assert code == 2
+        assert is_one_error(err, "was --phi 16.7 meant?")
+    code, _, err = run("radial --geometry wedge --delta 80 --half-angle 20 --mu 3")
+    assert code == 0
+    assert err == ("hopper: warning: --mu 3 is a coefficient: was --phi 3 meant?\n")
+
+
+def test_numbers_in_a_refusal_differ(run, answer):
+    limit = answer(f"radial {CONE} --mu 0.3")["mu_limit"]
+    _, _, err = run(f"radial {CONE} --mu {limit * (1 + 1e-12)!r}")
+    numbers = re.findall(r"mu = ([\d.]+)\)", err)
+    assert len(numbers) == len(set(numbers)) == 2
+    assert float(numbers[0]) > float(numbers[1])
+    _, _, err = run("radial --geometry wedge --delta 40 --half-angle 20 --phi 40.0000001")
+    numbers = re.findall(r"phi = ([\d.]+) deg", err)
+    assert len(numbers) == len(set(numbers)) == 2
+
+
+def test_advice_fits_the_cause(run, monkeypatch):
+    def fail(*_):
+        raise ConvergenceError(f"not resolved; {not_resolved_because(0.0)}")
+
+    monkeypatch.setattr("hopper_cli.commands.assess_neutral", fail)
+    _, _, err = run("neutral --geometry cone --half-angle 89 --phi 0")
+    assert is_one_error(err, "take another one")
+    assert "lower the wall friction" not in err
+    assert "lower the wall friction" in not_resolved_because(0.1)
+
+
+@pytest.mark.parametrize(
+    ("command", "code", "kind"),
+    [
+        (f"radial {CONE} --mu 0.36", 1, "NoRadialSolutionError"),
+        (f"stability {CONE} --mu 0.36", 1, "NoRadialSolutionError"),
+        (f"radial {CONE} --mu 5", 2, "UsageError"),
+        (f"radial {CONE} --mu x", 2, "UsageError"),
+        ("neutral --geometry cone --half-angle 45 --phi 40", 1, "NoRadialSolutionError"),
+    ],
+)
+def test_without_an_answer_json_has_the_error(run, command, code, kind):
+    found, out, err = run(f"{command} --json")
+    assert found == code
+    assert json.loads(out) == {
+        "error": {"kind": kind, "message": err.removeprefix("hopper: error: ").rstrip("\n")}
+    }
+
+
+def test_the_help_says_what_the_half_angle_is_measured_from(run):
+    assert "half opening angle, from the vertical" in " ".join(run("radial --help")[1].split())
+
+
+def test_angles_in_degrees_beside_radians(answer, run):
+    found = answer(f"radial {STEEL}")
+    for key in ("psi_wall", "psi_max"):
+        assert found[f"{key}_deg"] == pytest.approx(degrees(found[key]), rel=1e-15)
+        assert found["errors"][f"{key}_deg"] == pytest.approx(degrees(found["errors"][key]))
+    assert " rad" not in run(f"radial {STEEL}")[1].replace("radial", "")
 
 
 # --- the installed command -----------------------------------------------------------------------
@@ -473,7 +649,14 @@ print(*{{name.split('.')[0] for name in sys.modules}}, file=sys.stderr)
 def test_a_plain_answer_imports_no_more_than_it_needs(command):
     loaded = loaded_by(command)
     assert "scipy" in loaded
-    assert not loaded & {"matplotlib", "xarray", "netCDF4", "pandas", "snakemake", "support"}
+    assert not loaded & {
+        "matplotlib",
+        "xarray",
+        "netCDF4",
+        "pandas",
+        "snakemake",
+        "hopper_workflow",
+    }
 
 
 def test_help_imports_no_numerics():

@@ -5,6 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from hopper import schur_form
 from hopper.evidence.first_derivative import (
     agreeing_eigenvalues,
     digits_lost,
@@ -13,7 +14,6 @@ from hopper.evidence.first_derivative import (
 )
 from hopper.spectral import chebyshev
 from hopper.spectral.pseudospectrum import eigenvalue_condition_numbers
-from hopper.spectral.schur import schur_form
 
 EPS = np.finfo(float).eps
 

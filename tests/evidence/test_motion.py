@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 import sympy as sp  # type: ignore[import-untyped]
 
+from hopper import Hopper, radial_solutions, solve_radial, solve_velocity
 from hopper.errors import InvalidParameterError
 from hopper.evidence import motion
-from hopper.problem import Hopper
-from hopper.radial.solution import radial_solutions, solve_radial
-from hopper.radial.velocity import decay_exponent, solve_velocity
+from hopper.radial.velocity import decay_exponent
 from hopper.yield_conditions import MOHR_COULOMB, VON_MISES
 from tests.stability.witnesses import derived_coefficients, radial
 

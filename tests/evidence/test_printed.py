@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hopper.evidence import printed
-from hopper.stability import linearisation
+from hopper.stability import paper_frame
 from hopper.yield_conditions import MOHR_COULOMB, VON_MISES
 from tests.stability.witnesses import radial
 
@@ -27,7 +27,7 @@ def test_the_printed_matrices_are_those_of_half_psi(geometry):
     solution = radial(geometry, 38, 17, 0.12)
     theta = np.linspace(0.2, 1, 9) * solution.hopper.half_angle
     a, b, c = printed.linearised(solution, theta)
-    at = linearisation.coefficients(solution, theta, psi_scale=2.0)
+    at = paper_frame.coefficients(solution, theta, psi_scale=2.0)
     f = b + solution.hopper.curvature * c
     for value, expected in (
         (a[:, 0, 0], at.a11), (a[:, 0, 1], at.a12), (a[:, 1, 0], at.a21), (a[:, 1, 1], at.a11),

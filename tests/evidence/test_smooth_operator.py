@@ -6,11 +6,10 @@ import mpmath  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 
+from hopper import Hopper, linear_stability
 from hopper.evidence import smooth_operator
 from hopper.evidence.smooth_operator import check_formula, kummer_residual, operator_matrix
-from hopper.problem import Hopper
 from hopper.stability import smooth_wall
-from hopper.stability.modes import linear_stability
 from tests.stability.witnesses import radial
 
 

@@ -7,7 +7,7 @@ import matplotlib
 import pytest
 from matplotlib import ft2font
 
-from support import plotting
+from hopper_workflow import plotting
 
 BASELINE = Path(__file__).with_name("baseline")
 STYLE = str(plotting.STYLE)
@@ -22,10 +22,7 @@ _RENDERER = BASELINE / "renderer.txt"
 def comparison(name: str) -> pytest.MarkDecorator:
     """Return the mark by which pytest-mpl compares what a test returns with a stored image."""
     return pytest.mark.mpl_image_compare(
-        filename=f"{name}.png",
-        style=STYLE,
-        savefig_kwargs=SAVING,
-        tolerance=TOLERANCE,
+        filename=f"{name}.png", style=STYLE, savefig_kwargs=SAVING, tolerance=TOLERANCE
     )
 
 

@@ -16,7 +16,7 @@ import xarray as xr
 import yaml
 from scipy.optimize import linear_sum_assignment
 
-from support import artifacts, fields
+from hopper_workflow import artifacts
 from tests.figures.registry import ROOT, plots
 
 HERE = Path(__file__).parent
@@ -108,7 +108,7 @@ def deviations(
     for rule in entry["rules"]:
         if "spectrum" in rule:
             drawn = _matched(drawn, stored, rule["spectrum"])
-        if "curve" in rule:
+        if "curve" in rule and rule["curve"][0] in stored:
             yield (
                 rule,
                 " over ".join(rule["curve"]),
@@ -159,12 +159,18 @@ def _matched(drawn: xr.Dataset, stored: xr.Dataset, name: str) -> xr.Dataset:
 
     The order of an artifact's eigenvalues depends on rounding; so does any comparison by index.
     """
+    if f"{name}_real" not in stored:
+        return drawn
     (dimension,) = drawn[f"{name}_real"].dims
     if drawn.sizes[dimension] != stored.sizes[dimension]:
         return drawn
-    distance = np.abs(fields.as_complex(stored, name)[:, None] - fields.as_complex(drawn, name))
+    distance = np.abs(_complex(stored, name)[:, None] - _complex(drawn, name))
     _, order = linear_sum_assignment(distance)
     return drawn.isel({dimension: order})
+
+
+def _complex(data: xr.Dataset, name: str) -> np.ndarray:
+    return np.asarray(data[f"{name}_real"].to_numpy() + 1j * data[f"{name}_imag"].to_numpy())
 
 
 def _distance_of_curves(drawn: xr.Dataset, stored: xr.Dataset, x: str, y: str) -> float:
@@ -187,7 +193,9 @@ def _print_spread(other: Path) -> None:
     for artifact in compared_artifacts():
         entry = entry_of(artifact)
         key = next(key for key, value in tolerances().items() if value is entry)
-        data, reading = (artifacts.read(root / artifact) for root in (other, ROOT / "results"))
+        data, reading = (
+            artifacts.read(root / artifact, stored=True) for root in (other, ROOT / "results")
+        )
         for rule, name, deviation in deviations(data, reference(reading, entry), entry):
             if rule is not _COORDINATES and rule is not _EXACT:
                 label = f"{key}: {name.removesuffix('_mean')}"

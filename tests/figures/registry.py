@@ -44,11 +44,24 @@ def plots() -> dict[str, Plot]:
 
 def _plots_of_workflow() -> list[Plot]:
     from snakemake.api import SnakemakeApi
-    from snakemake.settings.types import DAGSettings, OutputSettings, Quietness, ResourceSettings
+    from snakemake.settings.types import (
+        ConfigSettings,
+        DAGSettings,
+        OutputSettings,
+        Quietness,
+        ResourceSettings,
+    )
+
+    from hopper_workflow import effective
 
     os.chdir(ROOT)
+    record = effective.of_last_run()
     with SnakemakeApi(OutputSettings(quiet={Quietness.ALL})) as api:
-        workflow = api.workflow(ResourceSettings(cores=1), snakefile=Path("Snakefile"))
+        workflow = api.workflow(
+            ResourceSettings(cores=1),
+            ConfigSettings(configfiles=[record] if record else []),
+            snakefile=Path("Snakefile"),
+        )
         with contextlib.redirect_stdout(io.StringIO()):
             workflow.dag(DAGSettings()).summary()  # resolves all jobs and runs none
         jobs = list(workflow._workflow.dag.jobs)  # no public attribute holds them

@@ -8,10 +8,9 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
+from hopper import Hopper, solve_radial, solve_radial_family, solve_velocity
 from hopper.errors import SingularVelocityError
-from hopper.problem import Hopper
-from hopper.radial.solution import solve_radial, solve_radial_family
-from hopper.radial.velocity import decay_exponent, solve_velocity
+from hopper.radial.velocity import decay_exponent
 from hopper.yield_conditions import VON_MISES
 from tests.radial import witness
 

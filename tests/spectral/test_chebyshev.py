@@ -5,6 +5,7 @@ import pytest
 from numpy.polynomial import chebyshev as series
 from numpy.polynomial.legendre import leggauss
 
+from hopper.errors import InvalidParameterError
 from hopper.spectral import chebyshev
 
 # Random polynomials: an operator that is exact on these is exact, whatever its construction.
@@ -111,10 +112,7 @@ def test_half_nodes_are_the_positive_half():
 
 @pytest.mark.parametrize(
     ("parity", "function"),
-    [
-        ("even", lambda x: np.cos(3 * x) / (1 + x**2)),
-        ("odd", lambda x: np.sin(3 * x) / (1 + x**2)),
-    ],
+    [("even", lambda x: np.cos(3 * x) / (1 + x**2)), ("odd", lambda x: np.sin(3 * x) / (1 + x**2))],
 )
 def test_half_grid_operators_equal_the_full_ones(parity, function):
     m = 20
@@ -135,6 +133,11 @@ def test_half_grid_operators_equal_the_full_ones(parity, function):
         chebyshev.half_coefficients(function(half), parity), everything[kept::2], atol=2e-15
     )
     assert np.abs(everything[dropped::2]).max() < 1e-15
+    last = chebyshev.last_half_coefficients(half.size, parity, 3) @ function(half)
+    np.testing.assert_allclose(last, everything[kept::2][-3:], atol=2e-15)
+    for count in (0, half.size + 1):
+        with pytest.raises(InvalidParameterError, match="count"):
+            chebyshev.last_half_coefficients(half.size, parity, count)
 
 
 def test_integral_of_an_odd_function():

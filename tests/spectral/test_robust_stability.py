@@ -7,13 +7,13 @@ import pytest
 from scipy.linalg import block_diag
 from scipy.optimize import brentq, minimize_scalar
 
-from hopper.errors import InvalidParameterError
-from hopper.spectral.robust_stability import (
+from hopper import (
     distance_to_instability,
     pseudospectral_abscissa,
     pseudospectral_radius,
+    schur_form,
 )
-from hopper.spectral.schur import schur_form
+from hopper.errors import InvalidParameterError
 from tests.spectral.matrices import (
     RANDOM,
     complex_normal,

@@ -7,14 +7,15 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebvander
+from numpy.polynomial.legendre import leggauss
 from scipy.linalg import eig, qr
 from scipy.optimize import linear_sum_assignment
 
 from hopper.spectral import chebyshev
 from hopper.spectral.matching import unbroken_run
-from hopper.stability.collocation import paper_matrix
 from hopper.stability.convergence_filter import convergence_filter
 from hopper.stability.mesh_spectrum import HALVES, mesh_spectrum
+from hopper.stability.paper_matrix import paper_matrix
 from hopper.stability.transient import modal_basis
 from tests.stability.witnesses import radial
 
@@ -67,10 +68,21 @@ def matrix_norm(geometry, n):
 
 
 @lru_cache(maxsize=8)
-def quadrature_weights(n):
-    """Weights of the Chebyshev points that integrate T_0 ... T_(n-1) over [-1, 1]."""
+def l2_weights(geometry, n):
+    """Weights of the Chebyshev points that integrate T_0 ... T_(n-1) over [-1, 1].
+
+    In a cone of half angle 10 deg with |sin(theta)| / sin(theta_w), by parity on one half.
+    """
     degree = np.arange(n)
-    moments = np.where(degree % 2, 0.0, 2 / (1.0 - degree * (degree + (degree == 1))))
+    if geometry == "wedge":
+        moments = np.where(degree % 2, 0.0, 2 / (1.0 - degree * (degree + (degree == 1))))
+    else:
+        # Half of a circle, x = cos(a): T_j = cos(j a).
+        angle, weight = leggauss(2 * n)
+        angle, weight = np.pi / 4 * (1 + angle), np.pi / 4 * weight
+        x, wall = np.cos(angle), np.radians(10)
+        density = 2 * weight * np.sin(wall * x) / np.sin(wall) * np.sin(angle)
+        moments = np.where(degree % 2, 0.0, np.cos(degree[:, None] * angle) @ density)
     return np.linalg.solve(chebvander(chebyshev.nodes(n), n - 1).T, moments)
 
 
@@ -79,7 +91,7 @@ def eigenvectors(geometry, n, kept, norm, psi_scale):
     values, vectors = _all_modes(geometry, n)
     rows, columns = linear_sum_assignment(np.abs(kept[:, None] - values))
     assert np.abs(kept[rows] - values[columns]).max() < 1e-6 * np.abs(kept).max()
-    weight = quadrature_weights(n) if norm == "L2" else np.ones(n)
+    weight = l2_weights(geometry, n) if norm == "L2" else np.ones(n)
     scale = np.sqrt(np.concatenate([weight, weight[1:-1]]))
     scale[n:] /= psi_scale
     weighted = scale[:, None] * vectors[:, columns]

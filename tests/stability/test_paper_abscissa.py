@@ -6,12 +6,10 @@ import numpy as np
 import pytest
 from scipy.linalg import eigvals
 
-from hopper.errors import ConvergenceError, InvalidParameterError, TangencyError
-from hopper.problem import Hopper
-from hopper.radial.solution import solve_radial
-from hopper.stability.collocation import half_matrix, paper_matrix
-from hopper.stability.modes import linear_stability
+from hopper import Hopper, linear_stability, solve_radial
+from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.stability.paper_abscissa import paper_abscissa
+from hopper.stability.paper_matrix import half_matrix, paper_matrix
 from tests.stability.witnesses import radial
 
 TOLERANCE = 1e-3
@@ -21,8 +19,9 @@ CASES = [("wedge", 0.0), ("wedge", 0.1), ("cone", 0.0), ("cone", 0.1), ("cone", 
 @pytest.mark.parametrize(("geometry", "mu"), CASES)
 def test_physical_variant_meets_the_line_and_the_low_modes(geometry, mu):
     solution = radial(geometry, 35, 10, mu)
-    found, expected = paper_abscissa(solution, 400, 200, TOLERANCE), linear_stability(solution)
-    if expected.governed_by == "mode":
+    found = paper_abscissa(solution, 400, 200, TOLERANCE)
+    expected = linear_stability(solution, "symmetric", count=4)
+    if expected.governed_by != "line":
         assert abs(found.physical - expected.abscissa) < 1e-10
         return
     # Modes approach the line from below like Im(lambda)**-2. Of the n / pi = 127 modes that pi
@@ -53,7 +52,7 @@ def cone_with_friction():
 
 def test_variant_as_worded_is_wrong_for_cones_with_friction():
     solution = cone_with_friction()
-    expected = linear_stability(solution)
+    expected = linear_stability(solution, "symmetric")
     assert expected.abscissa == pytest.approx(-1.568, abs=5e-4)
     found = paper_abscissa(solution, 400, 200, TOLERANCE)
     assert found.as_worded == pytest.approx(-0.42, abs=5e-3)
@@ -89,7 +88,8 @@ def test_physical_variant_stops_at_the_first_unresolved_mode():
     fine, coarse = (eigvals(half_matrix(solution, n // 2, "physical")) for n in (400, 200))
     agreed = [z for z in fine if np.abs(coarse - z).min() < TOLERANCE * abs(z)]
     assert max(z.real for z in agreed) > 0.6
-    found, expected = paper_abscissa(solution, 400, 200, TOLERANCE), linear_stability(solution)
+    found = paper_abscissa(solution, 400, 200, TOLERANCE)
+    expected = linear_stability(solution, "symmetric")
     assert expected.abscissa < -0.3
     assert found.physical == pytest.approx(expected.abscissa, abs=1e-5)
 
@@ -101,8 +101,6 @@ def test_refusals():
             paper_abscissa(solution, n, coarse_n, TOLERANCE)
     with pytest.raises(ConvergenceError, match="converged to 1e-16 between 16 and 32 nodes: use"):
         paper_abscissa(solution, 32, 16, 1e-16)
-    with pytest.raises(TangencyError):
-        paper_abscissa(radial("cone", 35, 10, 0.36), 32, 16, TOLERANCE)
 
 
 @pytest.mark.parametrize(("n", "coarse_n"), [(200, 200), (100, 200)])

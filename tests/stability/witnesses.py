@@ -1,21 +1,18 @@
-"""Second ways to the linearised equations, their modes and their line, for the spectral tests.
+"""The linearised equations in the paper's frame by computer algebra, and small helpers.
 
-Nothing here uses the code under test but the radial fields: the coefficients come from the
-equations of motion by computer algebra, low modes from a Legendre-Galerkin method or by shooting.
+Nothing here uses the code under test but the radial fields. Modes and the line by second ways:
+:mod:`tests.stability.tilted_chebyshev`, ``tilted_witnesses`` and ``tilted_line``.
 """
 
 from functools import lru_cache
-from math import atan, cos, pi, radians
+from math import atan, cos, radians, sin
 
 import numpy as np
 import sympy as sp  # type: ignore[import-untyped]
-from numpy.polynomial import legendre
-from scipy.integrate import quad, solve_ivp
-from scipy.linalg import eigvals
 from scipy.optimize import linear_sum_assignment
 
-from hopper.problem import Geometry, Hopper
-from hopper.radial.solution import RadialSolution, solve_radial
+from hopper import Hopper, RadialSolution, solve_radial
+from hopper.problem import Geometry
 
 
 @lru_cache(maxsize=64)
@@ -85,99 +82,6 @@ def derived_coefficients(solution: RadialSolution, theta):
     return np.linalg.solve(in_time, in_angle), np.linalg.solve(in_time, algebraic)
 
 
-def galerkin_modes(solution: RadialSolution, size: int):
-    """Return the eigenvalues of physical parity by a Legendre-Galerkin method.
-
-    The equations are solved for the angular derivatives, U' + A^-1 F U = lambda A^-1 U, with
-    sigma1 in the even polynomials P_0 ... P_(2 size - 2) and psi1 in the odd ones
-    P_(2 j + 1) - P_(2 j - 1), which vanish at the wall; Gauss-Legendre quadrature.
-    """
-    x, weight = legendre.leggauss(4 * size)
-    x, weight = x[x > 0], weight[x > 0]
-    basis = np.eye(2 * size)
-    slopes = legendre.legder(basis, axis=0) / solution.hopper.half_angle
-    even, d_even = (legendre.legval(x, c[:, 0::2]).T for c in (basis, slopes))
-    odd, d_odd = (np.diff(legendre.legval(x, c[:, 1::2]).T, axis=1) for c in (basis, slopes))
-    a, f = derived_coefficients(solution, solution.hopper.half_angle * x)
-    inverse = np.linalg.inv(a)
-    potential = inverse @ f
-    trial, d_trial = (even, odd), (d_even, d_odd)
-    # The equation for sigma1' is odd, that for psi1' even.
-    test = (odd, even)
-
-    def project(row, column):
-        weighted = weight[:, None] * test[row]
-        left = weighted.T @ (potential[:, row, column, None] * trial[column])
-        if row == column:
-            left += weighted.T @ d_trial[column]
-        return left, weighted.T @ (inverse[:, row, column, None] * trial[column])
-
-    blocks = [[project(row, column) for column in range(2)] for row in range(2)]
-    left, right = (np.block([[block[side] for block in row] for row in blocks]) for side in (0, 1))
-    return eigvals(left, right)
-
-
-def shoot(solution: RadialSolution, eigenvalues):
-    """Return psi1 at the wall of solutions regular on the axis, sigma1(0) = 1, for each lambda.
-
-    DOP853 on U' = A^-1 (lambda - F) U from theta_0 = 1e-5 theta_w. There sigma1 = 1 and
-    psi1 = b theta, with b from the first equation at the axis; terms left out are of relative
-    size (|Im lambda| theta_0)^2 in psi1, of which the wall sees no more than the cube.
-    """
-    half_angle = solution.hopper.half_angle
-    eigenvalues = np.asarray(eigenvalues, dtype=complex)
-    start = np.array([1e-5 * half_angle])
-    a, f = derived_coefficients(solution, start)
-    # psi1 = b theta: A12 b + F12 theta b = lambda - F11, terms of order theta^2 left out.
-    slope = (eigenvalues - f[0, 0, 0]) / (a[0, 0, 1] + f[0, 0, 1] * start)
-    u0 = np.concatenate([np.ones_like(slope), slope * start])
-
-    def right(theta, u):
-        a, f = derived_coefficients(solution, np.array([theta]))
-        u = u.reshape(2, -1)
-        return np.linalg.solve(a[0], eigenvalues * u - f[0] @ u).ravel()
-
-    done = solve_ivp(right, (start[0], half_angle), u0, method="DOP853", rtol=1e-12, atol=1e-14)
-    return done.y[eigenvalues.size :, -1]
-
-
-def shooting_roots(solution: RadialSolution, guesses):
-    """Return roots of :func:`shoot` near the guesses by the secant method, all at once."""
-    previous = np.asarray(guesses, dtype=complex)
-    current = previous * (1 + 1e-4)
-    before, now = shoot(solution, previous), shoot(solution, current)
-    for _ in range(8):
-        step = now * (current - previous) / (now - before)
-        previous, before = current, now
-        current = current - step
-        if np.all(np.abs(step) < 1e-9 * np.abs(current)):
-            return current
-        now = shoot(solution, current)
-    raise AssertionError(f"secant method did not converge: last steps {np.abs(step)}")
-
-
-def line_by_quadrature(solution: RadialSolution):
-    """Return the abscissa of the asymptotic line and the spacing of modes by adaptive quadrature.
-
-    For large lambda, U' = A^-1 (lambda - F) U has solutions along both eigenvectors (+-rho, 1) of
-    A with exponents lambda times the eigenvalue of A^-1 less the diagonal of A^-1 F in that basis
-    (plus a term alike for both). Regularity on the axis and psi1 = 0 at the wall couple the two
-    with factors of modulus 1, so the difference of exponents has real part 0.
-    """
-    hopper = solution.hopper
-
-    def difference(theta, part):
-        theta = np.array([theta])
-        a, f = derived_coefficients(solution, theta)
-        rho = 2 * hopper.s * solution.fields(theta)[0][0] / cos(hopper.delta)
-        basis = np.array([[rho, -rho], [1, 1]])
-        inverse = np.linalg.inv(a[0])
-        factor = inverse if part == "time" else inverse @ f[0]
-        transformed = np.linalg.solve(basis, factor @ basis)
-        return transformed[0, 0] - transformed[1, 1]
-
-    def integral(part):
-        return quad(difference, 0, hopper.half_angle, part, epsabs=1e-14, epsrel=1e-13)[0]
-
-    time = integral("time")
-    return integral("growth") / time, 2 * pi / abs(time)
+def wall_tangency_friction(delta: float) -> float:
+    """Return the friction angle (radians) of the wall on which psi_w = pi/4 - delta/2."""
+    return atan(sin(delta) * cos(delta) / (1 + sin(delta) ** 2))

@@ -6,6 +6,8 @@ import re
 import shutil
 import subprocess
 import sys
+import sysconfig
+import venv
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -13,7 +15,7 @@ from typing import Any
 import pytest
 import yaml
 
-from support.logs import checksum
+from hopper_workflow.logs import checksum
 
 ROOT = Path(__file__).parents[2]
 CHECK = {"points": 1, "nodes": 80, "coarse_nodes": 40, "tolerance": 0.001}
@@ -37,16 +39,24 @@ COARSE: dict[str, Any] = {
     "friction_curves.fig_4_4.check": CHECK,
     "friction_curves.fig_4_4_30.mu.points": 8,
     "friction_curves.fig_4_4_30.check": CHECK,
+    "friction_curves.fig_4_4.second_row.points": 8,
+    "friction_curves.fig_4_4_30.second_row.points": 8,
     "stability_map.delta_deg.points": 7,
     "stability_map.phi_deg.points": 7,
     "borders.neutral_step_deg": 4,
     "borders.delta_deg.points": 5,
     "borders.check": CHECK,
+    "paper_border.frictions": 2,
+    "paper_border.delta_deg.step": 12,
+    "paper_border.width_deg": 1,
+    "paper_border.nodes": 80,
+    "paper_border.coarse_nodes": 40,
     "domain_angle.half_angles_deg": [10, 30],
     "domain_angle.neutral_step_deg": 4,
-    "domain_angle.tangency_points": 5,
     "claims.models.deltas_deg.step": 20,
     "claims.models.psi_points": 4,
+    "claims.linear.folds.half_angles_deg": [10],
+    "claims.linear.folds.deltas_deg.step": 10,
     "claims.linear.windows.points": 11,
 }
 
@@ -54,20 +64,22 @@ COARSE: dict[str, Any] = {
 class Workflow:
     """A copy of the workflow and what can be done with it."""
 
-    def __init__(self, path: Path) -> None:
-        self.path = path
+    def __init__(self, path: Path, python: str | Path = sys.executable) -> None:
+        self.path, self.python = path, str(python)
 
     def snakemake(self, *arguments: str, **variables: str) -> subprocess.CompletedProcess[str]:
-        command = [sys.executable, "-m", "snakemake", "--cores", "2", *arguments]
+        command = [self.python, "-m", "snakemake", "--cores", "2", *arguments]
         environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", **variables}
         return subprocess.run(
             command, cwd=self.path, env=environment, capture_output=True, text=True, check=False
         )
 
-    def publish(self, what: str) -> subprocess.CompletedProcess[str]:
+    def publish(
+        self, what: str, *arguments: str, **variables: str
+    ) -> subprocess.CompletedProcess[str]:
         """Write the report or the crate."""
-        command = [sys.executable, "-m", f"publish.{what}"]
-        environment = {**os.environ, "PYTHONPATH": str(self.path / "scripts")}
+        command = [self.python, "-m", f"hopper_workflow.publish.{what}", *arguments]
+        environment = {**os.environ, "PYTHONPATH": str(self.path / "scripts"), **variables}
         return subprocess.run(
             command, cwd=self.path, env=environment, capture_output=True, text=True, check=False
         )
@@ -155,9 +167,66 @@ def built(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Workflow:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not complete.exists():
             shutil.rmtree(path, ignore_errors=True)
-            copy(path).build()
+            python = interpreter(shared / "built/python", RECORDER)
+            (shared / "built/loaded").mkdir(exist_ok=True)
+            workflow = Workflow(copy(path).path, python)
+            workflow.build(LOADED_BY=str(shared / "built/loaded"))
             complete.touch()
     return Workflow(path)
+
+
+# At its end a job notes the modules it has loaded.
+RECORDER = """
+import atexit, os, sys
+
+def record():
+    job = vars(sys.modules["__main__"]).get("snakemake")
+    if hasattr(job, "rule"):
+        files = {getattr(m, "__file__", None) for n, m in sys.modules.items() if n[:6] == "hopper"}
+        with open(os.path.join(os.environ["LOADED_BY"], job.rule), "a") as log:
+            log.writelines(f"{os.path.relpath(file)}\\n" for file in files - {None})
+
+atexit.register(record)
+"""
+
+
+def interpreter(folder: Path, code: str) -> Path:
+    """Return a Python with the packages of this one that runs code whenever it starts.
+
+    Jobs inherit no variable by which that could be done.
+    """
+    venv.create(folder, clear=True, symlinks=True)
+    (site,) = folder.glob("lib/python*/site-packages")
+    (site / "packages.pth").write_text(sysconfig.get_path("purelib") + "\n", encoding="utf-8")
+    (site / "sitecustomize.py").write_text(code, encoding="utf-8")
+    return folder / "bin/python"
+
+
+def with_make(
+    workflow: Workflow, *goals: str, variables: dict[str, str] | None = None, umask: int = 0o022
+) -> subprocess.CompletedProcess[str]:
+    """Run make in a copy of the workflow, with an environment that need not be installed."""
+    folder = workflow.path / ".venv"
+    if not folder.exists():
+        interpreter(folder, "")
+        (folder / "place").write_text(f"{workflow.path.resolve()}\n")
+        (folder / "run.stamp").touch()
+    return subprocess.run(
+        ["make", "-s", *goals],
+        cwd=workflow.path,
+        env={**os.environ, **(variables or {})},
+        umask=umask,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+@pytest.fixture(scope="session")
+def loaded(built: Workflow) -> dict[str, set[str]]:
+    """The project's modules, as paths, that jobs of each rule really loaded."""
+    folder = built.path.parent / "loaded"
+    return {path.name: set(path.read_text().split()) for path in folder.iterdir()}
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ import netCDF4
 import numpy as np
 import pytest
 
-from support import artifacts
+from hopper_workflow import artifacts
 from tests.reliability import comparison, record
 
 pytestmark = pytest.mark.workflow
@@ -64,6 +64,7 @@ def build_elsewhere(workflow, *targets):
     workflow.build("--cores", "1", *targets, TZ="Asia/Tokyo", LC_ALL="C")
 
 
+@pytest.mark.soak
 def test_some_artifacts_and_figures_are_identical_in_another_place(built, fresh):
     targets = {
         "figures/fig_4_1.pdf", "figures/fig_4_2.png", "figures/fig_jenike.png",
@@ -89,6 +90,7 @@ def test_artifacts_and_figures_are_identical_in_another_place(built, fresh):
     )
 
 
+@pytest.mark.soak
 def test_the_number_of_chunks_does_not_change_the_map(built, rebuilt):
     path, chunks = "results/map/cone_10.nc", [1, 7]
     found = {artifacts.checksum(built.path / path)}
@@ -107,9 +109,15 @@ def test_the_number_of_chunks_does_not_change_the_map(built, rebuilt):
 def test_a_map_tells_why_there_is_no_verdict(built):
     for path in files(built, "results/map", "*_[0-9]*.nc"):
         data = artifacts.read(path)
-        verdict = np.isin(data.region, [0, 1])
-        assert np.array_equal(np.isfinite(data.abscissa), verdict)
-        assert np.all((data.abscissa.values[verdict] < 0) == (data.region.values[verdict] == 0))
+        signs = {
+            "stable": (data.abscissa < 0) & (data.abscissa_symmetric < 0),
+            "stable_symmetric_only": (data.abscissa >= 0) & (data.abscissa_symmetric < 0),
+            "unstable": data.abscissa_symmetric >= 0,
+        }
+        for region, expected in signs.items():
+            assert np.array_equal(data.region == region, expected), (path, region)
+        assert np.array_equal(np.isfinite(data.abscissa), np.isin(data.region, list(signs)))
+        assert np.array_equal(np.isfinite(data.abscissa), data.governed_by != "none")
 
 
 def test_error_estimates_are_in_the_artifacts(built):

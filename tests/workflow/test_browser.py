@@ -1,4 +1,4 @@
-"""The report in a real browser: complete, whole and offline."""
+"""The report, also in a real browser: complete, whole and offline."""
 
 import json
 import os
@@ -43,6 +43,8 @@ def report(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFact
 
 @pytest.fixture(scope="module")
 def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[webdriver.Chrome]:
+    if "HOPPER_REPORT" not in os.environ:
+        pytest.skip("of a whole run, after make report: make test-report")
     program = shutil.which("chromium") or shutil.which("google-chrome")
     driver = shutil.which("chromedriver")
     if not program or not driver:
@@ -111,6 +113,11 @@ def published(report: Path) -> set[str]:
     assert done.returncode == 0, done.stderr
     made = [line.split("\t")[0] for line in done.stdout.splitlines()[1:]]
     return {path for path in made if path.endswith((".png", ".html"))}
+
+
+def test_every_figure_and_page_is_in_the_report(report: Path):
+    text = report.read_text(encoding="utf-8")
+    assert [path for path in sorted(published(report)) if path not in text] == []
 
 
 def test_every_figure_and_page_is_found_by_its_title(reader: Reader, report: Path):

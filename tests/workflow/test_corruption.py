@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from publish import run
-from support import artifacts, logs
+from hopper_workflow import artifacts, logs
+from hopper_workflow.publish import run
 from tests.reliability import record
 
 pytestmark = pytest.mark.workflow
@@ -37,38 +37,36 @@ def replaced(content, foreign):
 FAULTS = [truncated, flipped, emptied, replaced]
 
 
-def kinds(rows):
+def kinds(outputs):
     """Return the files of the workflow by kind: artifacts, side files, figures and tables, logs."""
-    outputs = [row["output_file"] for row in rows]
     return {
         "artifacts": [path for path in outputs if path.endswith(".nc")],
         "provenance": [path for path in outputs if path.endswith(".provenance.json")],
         "figures and tables": [path for path in outputs if not path.endswith((".nc", ".json"))],
-        "logs": sorted({row["log-file(s)"] for row in rows}),
+        "logs": sorted(str(path) for path in Path("logs").rglob("*.log")),
     }
 
 
 def test_every_fault_in_every_file_is_found(rebuilt, monkeypatch):
     monkeypatch.chdir(rebuilt.path)
-    rows = run.summary()
-    assert run.damages(rows) == {}
+    outputs = run.existing()
+    assert run.damages(outputs, run.records()) == {}
+    made_by = {path: {*logs.record(path).written} for path in kinds(outputs)["logs"]}
+    assert sorted(set().union(*made_by.values())) == outputs
     counts: Counter[str] = Counter()
-    missed = 0
-    for kind, paths in kinds(rows).items():
+    missed, sound = 0, run.records()
+    for kind, paths in kinds(outputs).items():
         # Another file of the same kind: readable, but not what belongs there.
         neighbours = dict(zip(paths, [*paths[1:], paths[0]], strict=True))
         contents = {path: Path(path).read_bytes() for path in paths}
         for path, content in contents.items():
-            expected = {
-                row["output_file"]
-                for row in rows
-                if path in (row["output_file"], row["log-file(s)"])
-            }
+            expected = made_by.get(path, {path})
             for fault in FAULTS:
                 Path(path).write_bytes(fault(content, contents[neighbours[path]]))
-                concerned = [row for row in rows if row["output_file"] in expected]
                 counts[f"faults in {kind}"] += 1
-                missed += set(run.damages(concerned)) != expected
+                # Logs are read anew where one was damaged; files are looked at one by one.
+                jobs = run.records() if kind == "logs" else sound
+                missed += set(run.damages(expected, jobs)) != expected
                 assert not missed, f"{path} {fault.__name__}"
                 if path.endswith(".nc"):
                     with pytest.raises(
@@ -79,7 +77,7 @@ def test_every_fault_in_every_file_is_found(rebuilt, monkeypatch):
                     with pytest.raises(artifacts.ArtifactError, match=r"damaged|no readable"):
                         artifacts.read(path.replace(".provenance.json", ".nc"))
             Path(path).write_bytes(content)
-    assert run.damages(rows) == {}
+    assert run.damages(outputs, run.records()) == {}
     record(
         "corruption",
         "Every file of a run and every log was truncated, had a bit flipped, was emptied, and was "
@@ -89,6 +87,7 @@ def test_every_fault_in_every_file_is_found(rebuilt, monkeypatch):
     )
 
 
+@pytest.mark.soak
 def test_what_is_named_is_rebuilt_and_nothing_else(built, rebuilt):
     damage = {
         "results/radial/fig_3_1.nc": truncated,
@@ -145,15 +144,17 @@ def test_a_missing_artifact_is_named_with_its_remedy(rebuilt):
 
 
 def test_a_log_that_was_not_sealed_vouches_for_nothing(tmp_path):
-    log, output = tmp_path / "job.log", tmp_path / "output"
+    log, output, source = (tmp_path / name for name in ("job.log", "output", "source"))
+    source.write_bytes(b"data")
     with pytest.raises(logs.LogError, match="cannot be read"):
-        logs.checksums(log)
+        logs.record(log)
     log.write_text("started\n", encoding="utf-8")
     with pytest.raises(logs.LogError, match="not as the job left it"):
-        logs.checksums(log)
+        logs.record(log)
     output.write_bytes(b"result")
-    logs.seal(log, [str(output)])
-    assert logs.checksums(log) == {str(output): logs.checksum(output)}
+    logs.seal(log, [str(output)], [str(source)])
+    assert logs.record(log).written == {str(output): logs.checksum(output)}
+    assert logs.record(log).read == {str(source): logs.checksum(source)}
     log.write_text(log.read_text(encoding="utf-8") + "appended\n", encoding="utf-8")
     with pytest.raises(logs.LogError):
-        logs.checksums(log)
+        logs.record(log)

@@ -2,6 +2,8 @@
 
 import hashlib
 import json
+import os
+import time
 import zipfile
 from pathlib import Path
 
@@ -9,7 +11,7 @@ import pytest
 from rocrate.rocrate import ROCrate
 
 from hopper import __version__
-from tests.workflow.conftest import Workflow, copy
+from tests.workflow.conftest import Workflow, copy, with_make
 
 pytestmark = pytest.mark.workflow
 
@@ -45,6 +47,7 @@ def test_every_file_is_there_with_its_checksum(crate, archive):
             assert entity["sha256"] == hashlib.sha256(data).hexdigest(), entity.id
             assert entity["contentSize"] == str(len(data))
             assert entity["encodingFormat"]
+        assert {member.external_attr >> 16 for member in content.infolist()} == {0o100644}
 
 
 def test_the_run_has_its_workflow_inputs_and_results(crate, run):
@@ -103,3 +106,25 @@ def test_a_second_crate_of_the_same_run_says_the_same(crate, run, archive):
     first = metadata()
     assert run.publish("crate").returncode == 0
     assert metadata() == first
+
+
+@pytest.mark.soak
+def test_who_unpacks_it_has_the_run_as_it_was_configured(rebuilt, tmp_path):
+    (rebuilt.path / "mine.yaml").write_text("fig_1_1: {half_angle_deg: 25}\n")
+    done = with_make(rebuilt, "figures", "CONFIG=mine.yaml")
+    assert done.returncode == 0, done.stderr
+    done = with_make(rebuilt, "crate", "verify")
+    assert done.returncode == 0, done.stderr
+    unpacked = Workflow(tmp_path / "unpacked")
+    with zipfile.ZipFile(rebuilt.path / "results/hopper-crate.zip") as content:
+        content.extractall(unpacked.path)
+        for member in content.infolist():  # Python forgets the times, unzip and others do not
+            moment = time.mktime((*member.date_time, 0, 0, -1))
+            os.utime(unpacked.path / member.filename, (moment, moment))
+    assert "half_angle_deg: 25" in (unpacked.path / "config.yaml").read_text(encoding="utf-8")
+    assert unpacked.reruns() == set()
+    assert unpacked.publish("verify").returncode == 0
+    unpacked.build("--force", "figures/fig_1_1.png")
+    assert unpacked.products() == rebuilt.products()
+    # Without the file the run would be another one.
+    assert rebuilt.reruns() == {"plot_fig_1_1"}

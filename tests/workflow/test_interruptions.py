@@ -10,16 +10,10 @@ from collections import Counter
 
 import pytest
 
-from hopper_cli.files import replacing
+from hopper_data.files import replacing
 from tests.reliability import comparison, record
 from tests.workflow import interruptions
-from tests.workflow.interruptions import (
-    jobs_of,
-    killed_at_random,
-    resume,
-    started,
-    wait_for,
-)
+from tests.workflow.interruptions import jobs_of, killed_at_random, resume, started, wait_for
 
 pytestmark = pytest.mark.workflow
 SEED = 2000
@@ -45,6 +39,7 @@ def sound(built):
     return found
 
 
+@pytest.mark.soak
 def test_killed_at_random_moments(built, fresh):
     expected = sound(built)
     at_work = killed_at_random(fresh, expected, SHORT, random.Random(SEED), *SOME)
@@ -83,6 +78,7 @@ def test_killed_at_many_random_moments(built, copy_workflow, tmp_path):
     )  # fmt: skip
 
 
+@pytest.mark.soak
 def test_one_job_killed(built, fresh):
     with started(fresh, *SOME) as process:
         wait_for(lambda: bool(jobs_of(process)))
@@ -99,6 +95,7 @@ def test_one_job_killed(built, fresh):
            {"jobs killed": 1, **compared})  # fmt: skip
 
 
+@pytest.mark.soak
 def test_two_runs_at_once(built, fresh):
     with started(fresh, *SOME) as process:
         wait_for(lambda: bool(jobs_of(process)))

@@ -26,6 +26,47 @@ rule mine:
     default_target: True
     input: "silo/figures/fig_3_1.png"
 """
+# A host with packages of the names that ours once had, and a job of its own.
+WITH_ITS_OWN_PACKAGES = """
+import os
+import sys
+
+sys.path.insert(0, os.path.abspath("lib"))
+import support
+
+before = list(sys.path), dict(os.environ), set(sys.modules)
+
+module hopper:
+    snakefile: {clone!r} + "/Snakefile"
+    config: {{**{config!r}}}
+    prefix: "silo"
+
+use rule * from hopper as hopper_*
+
+import claims
+assert (support.whose, claims.whose) == ("the host's", "the host's")
+assert list(sys.path) == before[0], set(sys.path) ^ set(before[0])
+assert dict(os.environ) == before[1], set(os.environ.items()) ^ set(before[1].items())
+new = [sys.modules[name] for name in set(sys.modules) - before[2]]
+ours = {{m.__name__.partition(".")[0] for m in new if {clone!r} in str(getattr(m, "__file__", ""))}}
+assert ours <= {{"hopper", "hopper_data", "hopper_cli", "hopper_workflow"}}, ours
+
+rule mine:
+    default_target: True
+    input: "silo/figures/fig_1_1.png"
+    output: "mine.txt"
+    script: "lib/mine.py"
+"""
+ITS_JOB = """
+import os
+import sys
+
+import claims
+import support
+
+seen = [support.whose, claims.whose, os.environ.get("PYTHONPATH", "none"), *sys.path]
+open(snakemake.output[0], "w").write("\\n".join(seen))
+"""
 # What snakedeploy writes.
 FROM_GITHUB = """
 configfile: "config/config.yaml"
@@ -65,6 +106,22 @@ def test_another_workflow_uses_a_clone_with_its_own_numbers_and_prefix(fresh, ot
     assert not (other.path / "results").exists()
 
 
+def test_a_host_keeps_its_packages_its_path_and_its_environment(fresh, other):
+    for package in ("support", "claims"):
+        folder = other.path / "lib" / package
+        folder.mkdir(parents=True)
+        (folder / "__init__.py").write_text('whose = "the host\'s"\n')
+    (other.path / "lib/mine.py").write_text(ITS_JOB)
+    config = yaml.safe_load((fresh.path / "config.yaml").read_text())
+    (other.path / "Snakefile").write_text(
+        WITH_ITS_OWN_PACKAGES.format(clone=str(fresh.path), config=config)
+    )
+    other.build()
+    seen = (other.path / "mine.txt").read_text()
+    assert seen.startswith("the host's\nthe host's\nnone\n")
+    assert str(fresh.path) not in seen
+
+
 def test_a_bad_configuration_of_a_module_is_named(fresh, other):
     config = yaml.safe_load((fresh.path / "config.yaml").read_text())
     config["radial"]["fig_3_1"]["mu"] = "steep"
@@ -76,6 +133,7 @@ def test_a_bad_configuration_of_a_module_is_named(fresh, other):
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.soak
 @pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed")
 def test_another_workflow_uses_a_tag_on_github(other, tmp_path, monkeypatch):
     clone = copy(tmp_path / "github/somebody/hopper").path

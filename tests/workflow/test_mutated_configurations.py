@@ -22,7 +22,7 @@ from snakemake.api import SnakemakeApi
 from snakemake.common.configfile import load_configfile
 from snakemake.settings.types import DAGSettings, OutputSettings, Quietness, ResourceSettings
 
-from support import configuration, fields, strict_yaml
+from hopper_workflow import configuration, ranges, strict_yaml
 from tests.reliability import record
 from tests.workflow import mutations
 from tests.workflow.conftest import ROOT, Workflow
@@ -32,7 +32,7 @@ SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
 EACH = 45  # files of each kind
 RUN = 5  # by the command, whole files and changed ones each
 LIMIT = 3  # seconds for a dry run
-BUILT = 8  # of those that are accepted, in the short version
+BUILT = 3  # of those that are accepted, in the short version
 ONE_LINE = re.compile(
     r"config\.yaml (line (?P<line>\d+): |has |cannot ).+|config key '(?P<key>.*?)'.+", re.ASCII
 )
@@ -229,6 +229,7 @@ def test_no_rule_runs_a_shell():
         assert not re.search(r"^\s+(shell|run):|\bshell\(", path.read_text(), re.MULTILINE), path
 
 
+@pytest.mark.soak
 @pytest.mark.workflow
 def test_the_names_of_a_case_stay_names_and_its_description_is_text(fresh):
     """With what the schema allows: the widest names, and all the punctuation."""
@@ -258,6 +259,7 @@ def test_a_description_cannot_change_the_report(fresh):
     assert {path for path in files(fresh.path) - before if path.suffix != ".log"} == set()
 
 
+@pytest.mark.soak
 @pytest.mark.workflow
 def test_values_from_the_command_line_are_checked_and_used(fresh):
     other = fresh.path / "other.yaml"
@@ -358,5 +360,5 @@ def test_what_a_script_could_not_do_is_refused(key, value, message):
 
 
 def test_steps_do_not_pass_their_end():
-    np.testing.assert_array_equal(fields.steps(0, 89, 30), [0, 30, 60])
-    assert fields.steps(0, 0.3, 0.1).size == 4
+    np.testing.assert_array_equal(ranges.steps(0, 89, 30), [0, 30, 60])
+    assert ranges.steps(0, 0.3, 0.1).size == 4

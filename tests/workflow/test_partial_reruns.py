@@ -1,7 +1,7 @@
 """Editing one thing reruns what depends on it and nothing else: dry runs of the real workflow."""
 
-import ast
 import os
+import re
 import time
 
 import pytest
@@ -50,54 +50,72 @@ def test_a_mark_in_a_figure_reruns_its_plot_only(rebuilt):
 
 
 def test_the_plot_style_reruns_all_plots_only(rebuilt):
-    rebuilt.edit("scripts/support/paper.mplstyle", "font.size: 8", "font.size: 9")
+    rebuilt.edit("scripts/hopper_workflow/paper.mplstyle", "font.size: 8", "font.size: 9")
     assert {job.split("/")[0] for job in rebuilt.reruns()} == PLOTS
 
 
-def users_of(module: str) -> set[str]:
-    """Rules whose script imports ``module``, found independently by following import statements."""
-
-    def imports(path):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.ImportFrom) and node.module:
-                yield node.module
-                yield from (f"{node.module}.{alias.name}" for alias in node.names)
-
-    def reaches(path, seen):
-        for name in imports(path):
-            package, *rest = name.split(".")
-            folder = "src" if package in ("hopper", "hopper_cli") else "scripts"
-            file = ROOT.joinpath(folder, package, *rest)
-            file = file / "__init__.py" if file.is_dir() else file.with_suffix(".py")
-            if file.is_file() and name not in seen:
-                seen.add(name)
-                reaches(file, seen)
-        return seen
-
-    return {path.stem for path in (ROOT / "scripts").glob("*.py") if module in reaches(path, set())}
+MODULES = {
+    str(path.relative_to(ROOT))
+    for folder in ("src", "scripts/hopper_workflow")
+    for path in (ROOT / folder).rglob("*.py")
+}
 
 
-@pytest.mark.parametrize("module", ["flow_factor", "velocity", "chebyshev", "errors"])
-def test_editing_a_module_reruns_exactly_its_users(rebuilt: Workflow, module: str):
-    path = rebuilt.path / f"src/hopper/{module}.py"
+def test_editing_a_module_reruns_the_rules_whose_scripts_load_it(rebuilt: Workflow, loaded):
+    """All modules are edited at once: a dry run names each job's inputs and which are changed.
+
+    Of a job that reruns because of another one it names the inputs only.
+    """
+    for module in MODULES:
+        path = rebuilt.path / module
+        path.write_text(path.read_text(encoding="utf-8") + "\n# edited\n", encoding="utf-8")
+    inputs: dict[str, set[str]] = {}
+    for block in re.split(r"\n(?=(?:local)?rule )", rebuilt.snakemake("-n").stdout):
+        if listed := re.match(r"rule (\w+):.*\n    input: (.*)\n", block):
+            rule, files = listed[1], set(listed[2].split(", ")) & MODULES
+            assert inputs.setdefault(rule, files) == files, f"jobs of {rule} differ"
+            if changed := re.search(r"reason: Updated input files: ([^;\n]*)", block):
+                assert set(changed[1].split(", ")) & MODULES == files, rule
+    del inputs["all"]
+    assert set(inputs) == set(loaded)
+    for rule, files in inputs.items():
+        assert files == loaded[rule], rule
+
+
+def test_editing_what_only_plots_load_draws_all_figures_anew(rebuilt):
+    rebuilt.edit(
+        "scripts/hopper_workflow/plotting.py", "PAGE_WIDTH = 3.5, 7.1", "PAGE_WIDTH = 3.5, 7.2"
+    )
+    assert {job.split("/")[0] for job in rebuilt.reruns()} == PLOTS
+
+
+def test_reverting_a_module_reruns_nothing(rebuilt: Workflow):
+    path = rebuilt.path / "src/hopper/radial/flow_factor.py"
     original = path.read_text(encoding="utf-8")
     path.write_text(original + "\n# edited\n", encoding="utf-8")
-    users = users_of(f"hopper.{module}")
-    assert users, "no rule uses this module"
-    downstream = rebuilt.reruns()
-    direct = {job.split("/")[0] for job in downstream}
-    assert users <= direct
-    # What reruns beyond the users does so because its input is made again.
-    listing = rebuilt.snakemake("-n").stdout
-    for rule in direct - users:
-        block = listing[listing.index(f"rule {rule}:") :].split("\nrule ")[0]
-        assert "Input files updated by another job" in block
+    assert {"compute_flow_factor", "plot_fig_jenike", "compute_case/steel_cone"} <= rebuilt.reruns()
+    assert not rebuilt.reruns() & {"compute_smooth_wall", "plot_fig_1_1", "solve_radial/fig_3_1"}
     path.write_text(original, encoding="utf-8")
-    assert rebuilt.reruns() == set(), "reverting must rerun nothing"
+    assert rebuilt.reruns() == set()
 
 
-def test_touching_a_module_reruns_nothing(rebuilt):
-    for path in (rebuilt.path / "src/hopper").rglob("*.py"):
+@pytest.mark.parametrize("plot", sorted(PLOTS))
+def test_a_plot_loads_no_numerics(loaded, plot):
+    """Else every change of the numerics would draw every figure anew."""
+    numerics = {file for file in loaded[plot] if file.startswith("src/hopper/")}
+    assert numerics <= {"src/hopper/__init__.py", "src/hopper/errors.py"} | CASE_NEEDS.get(
+        plot, set()
+    )
+
+
+# The page of a case writes numbers with their errors, as the command does.
+CASE_NEEDS = {"plot_case": {"src/hopper/brief.py", "src/hopper/quantity.py"}}
+
+
+def test_touching_files_reruns_nothing(rebuilt):
+    """Modules, the rules' own scripts, the rules, the configuration."""
+    touched = ("src/**/*.py", "scripts/**/*", "workflow/**/*.smk", "Snakefile", "config.yaml")
+    for path in (path for pattern in touched for path in rebuilt.path.glob(pattern)):
         os.utime(path, (time.time() + 60, time.time() + 60))
     assert rebuilt.reruns() == set()
 

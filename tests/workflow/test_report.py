@@ -2,7 +2,7 @@
 
 import pytest
 
-from publish import run
+from hopper_workflow.publish import run
 
 pytestmark = pytest.mark.workflow
 
@@ -40,11 +40,12 @@ def test_a_bad_configuration_is_named(rebuilt):
     assert "Traceback" not in done.stderr
 
 
-def test_a_file_that_cannot_be_written_is_named_in_one_line(tmp_path):
-    def write(path):
+def test_a_file_that_cannot_be_written_is_named_in_one_line(tmp_path, monkeypatch):
+    def write(path, configuration):
         path.write_text("whole")
 
     path = tmp_path / "no such folder" / "report.html"
+    monkeypatch.setattr("sys.argv", ["report"])
     with pytest.raises(SystemExit) as ended:
         run.publish(write, str(path))
     assert str(ended.value).startswith(f"{path} not written: ")

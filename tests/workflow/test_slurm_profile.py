@@ -9,8 +9,8 @@ import xarray as xr
 import yaml
 from benchmarks import requests as measured
 
-from support import maps
-from support.requests import Cost, of_job, read_costs
+from hopper_workflow import domains
+from hopper_workflow.requests import Cost, of_job, read_costs
 from tests.slurm import cluster
 from tests.workflow.conftest import ROOT
 
@@ -25,7 +25,8 @@ def test_profile_and_document_are_those_of_the_table():
 
 
 def test_every_rule_has_a_request_and_no_other_has():
-    blocks = dict(re.findall(r"^rule (\w+):\n(.*?)(?=^rule |\Z)", RULES, re.MULTILINE | re.DOTALL))
+    block = r"^(?:use rule \w+ as|rule) (\w+)(?: with)?:\n(.*?)(?=^(?:use )?rule |\Z)"
+    blocks = dict(re.findall(block, RULES, re.MULTILINE | re.DOTALL))
     by_size = {name for name, block in blocks.items() if f'asks("{name}"' in block}
     fixed = set(yaml.safe_load(measured.PROFILE.read_text(encoding="utf-8"))["set-resources"])
     assert by_size == set(measured.OF_MAPS)
@@ -89,7 +90,7 @@ def test_without_benchmarks_there_is_one_line(tmp_path):
 def test_a_large_map_is_drawn_thinned(side, drawn):
     values = np.arange(side * side, dtype=float).reshape(side, side)
     data = xr.Dataset({"abscissa": (("delta", "phi"), values)})
-    found = maps.thinned(data, 10).abscissa.to_numpy()
+    found = domains.thinned(data, 10).abscissa.to_numpy()
     step = -(-side // drawn)
     np.testing.assert_array_equal(found, values[::step, ::step])
     assert found.shape == (drawn, drawn)

@@ -15,7 +15,7 @@ import yaml
 from cyclonedx.schema import SchemaVersion
 from cyclonedx.validation.json import JsonStrictValidator
 
-from publish import audit, locks
+from hopper_workflow.publish import audit, locks
 from tests.reliability import comparison, record
 from tests.workflow.conftest import ROOT, Workflow, copy
 
@@ -132,9 +132,9 @@ def materials(tmp_path: Path) -> Path:
 
 
 def publish(what: str, directory: Path, **variables: str) -> tuple[int, str, str]:
-    environment = {**os.environ, "PYTHONPATH": f"{ROOT / 'scripts'}:{ROOT / 'src'}", **variables}
+    environment = {**os.environ, "PYTHONPATH": str(ROOT / "scripts"), **variables}
     done = subprocess.run(
-        [sys.executable, "-m", f"publish.{what}"],
+        [sys.executable, "-m", f"hopper_workflow.publish.{what}"],
         cwd=directory, env=environment, capture_output=True, text=True, check=False,
     )  # fmt: skip
     return done.returncode, done.stdout, done.stderr
@@ -153,7 +153,7 @@ def test_the_bill_of_materials_follows_its_schema_and_holds_every_package(materi
             assert {one["content"] for one in component["hashes"]} >= set(package.hashes)
             assert (component["scope"] == "required") == (package in LOCKED["run"])
             assert use in component["properties"][0]["value"].split()
-    uses = next(one for one in json.loads(text)["dependencies"] if one["ref"] == "hopper")
+    uses = next(one for one in json.loads(text)["dependencies"] if one["ref"] == PROJECT["name"])
     asked = PROJECT["dependencies"] + PROJECT["optional-dependencies"]["workflow"]
     names = {re.sub("@.*", "", one).removeprefix("pkg:pypi/") for one in uses["dependsOn"]}
     assert names == {re.sub(">=.*", "", one).lower() for one in asked}
@@ -251,7 +251,7 @@ def test_some_figures_are_made_without_a_network(offline, built, fresh):
 @pytest.mark.workflow
 def test_report_and_crate_are_made_without_a_network(offline, rebuilt):
     for what in ("report", "crate"):
-        run(offline, rebuilt, f"publish.{what}")
+        run(offline, rebuilt, f"hopper_workflow.publish.{what}")
     assert (rebuilt.path / "results/report.html").stat().st_size > 100_000
     assert (rebuilt.path / "results/hopper-crate.zip").stat().st_size > 100_000
 

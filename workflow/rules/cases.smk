@@ -23,7 +23,7 @@ rule compute_case:
             key: value for key, value in own_hopper(wildcards).items() if key != "description"
         },
     script:
-        "../../scripts/compute_case.py"
+        f"{SCRIPTS}/compute_case.py"
 
 
 rule plot_case:
@@ -49,4 +49,4 @@ rule plot_case:
         description=lambda wildcards: own_hopper(wildcards).get("description", ""),
         delta_deg=lambda wildcards: own_hopper(wildcards)["delta_deg"],
     script:
-        "../../scripts/plot_case.py"
+        f"{SCRIPTS}/plot_case.py"

@@ -2,8 +2,6 @@
 # The verdict: what the paper claims, held against the artifacts
 # =================================================================================================
 
-from claims.words import paths_of, read_claims
-
 CLAIMS = code_graph.relative(ROOT / "resources/claims.yaml")
 CLAIMS_SCHEMA = code_graph.relative(ROOT / "workflow/schemas/claims.schema.yaml")
 TEMPLATES = {
@@ -40,7 +38,7 @@ rule compute_model_checks:
         models=HOPPER["models"],
         mu=sorted({mu for case in config["radial"].values() for mu in case["mu"]}),
     script:
-        "../../scripts/compute_model_checks.py"
+        f"{SCRIPTS}/compute_model_checks.py"
 
 
 rule compute_linear_checks:
@@ -63,10 +61,11 @@ rule compute_linear_checks:
         **mesh_of(LINEAR["spectrum"]),
         printed_at=LINEAR["printed_at"],
         smooth=LINEAR["smooth"],
+        folds=LINEAR["folds"],
         windows=LINEAR["windows"],
         kept_modes=PSEUDO["modes"],
     script:
-        "../../scripts/compute_linear_checks.py"
+        f"{SCRIPTS}/compute_linear_checks.py"
 
 
 rule judge_claims:
@@ -87,7 +86,7 @@ rule judge_claims:
     resources:
         **asks("judge_claims", map_points()),
     script:
-        "../../scripts/judge_claims.py"
+        f"{SCRIPTS}/judge_claims.py"
 
 
 rule render_claims:
@@ -109,4 +108,4 @@ rule render_claims:
         "../../envs/hopper.yaml"
     threads: 1
     script:
-        "../../scripts/render_claims.py"
+        f"{SCRIPTS}/render_claims.py"

@@ -2,26 +2,33 @@
 # Common: configuration check, and the code each rule depends on
 # =================================================================================================
 
-from support import code_graph, requests
-
-code_graph.let_scripts_import(ROOT)
 try:
     configuration.check(config, SCHEMA)
 except configuration.ConfigurationError as error:
     raise WorkflowError(str(error)) from None
+for line in configuration.bring_up_to_date(config, SCHEMA):
+    logger.warning(line)
 
 FIGURES = []
 COSTS = requests.read_costs(ROOT / "resources/benchmarks.tsv")
 
 
+# What the configuration does not name no rule makes; figures differ from rule to rule.
 wildcard_constraints:
-    figure=r"fig_\w+",
-    geometry="wedge|cone",
-    nodes=r"\d+",
-    mode="paper|physical",
-    angle=r"[0-9.]+",
-    chunk=r"\d+",
-    case="[a-z][a-z0-9_]*",
+    geometry=targets.words(["wedge", "cone"]),
+    nodes=targets.words(
+        sorted(
+            {
+                case[mesh]
+                for case in config["spectra"].values()
+                for mesh in ["nodes", "coarse_nodes"]
+            }
+        )
+    ),
+    mode=targets.words(config["pseudospectrum"]["modes"]),
+    angle=targets.words(config["stability_map"]["half_angles_deg"]),
+    chunk=targets.words(range(config["stability_map"]["chunks"])),
+    case=targets.words(case["name"] for case in config["cases"]),
 
 
 def code_of(script):

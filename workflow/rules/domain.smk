@@ -20,6 +20,8 @@ rule compute_friction_curve:
         "logs/compute_friction_curve/{figure}_{geometry}.log",
     benchmark:
         "logs/compute_friction_curve/{figure}_{geometry}.benchmark.tsv"
+    wildcard_constraints:
+        figure=targets.words(config["friction_curves"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1
@@ -30,7 +32,23 @@ rule compute_friction_curve:
         mu=curve("mu"),
         check=curve("check"),
     script:
-        "../../scripts/compute_friction_curve.py"
+        f"{SCRIPTS}/compute_friction_curve.py"
+
+
+use rule compute_friction_curve as compute_second_row with:
+    output:
+        artifact="results/friction/{figure}/{geometry}_second.nc",
+        provenance="results/friction/{figure}/{geometry}_second.provenance.json",
+    log:
+        "logs/compute_second_row/{figure}_{geometry}.log",
+    benchmark:
+        "logs/compute_second_row/{figure}_{geometry}.benchmark.tsv"
+    params:
+        geometry="{geometry}",
+        half_angle_deg=curve("half_angle_deg"),
+        deltas_deg=curve("deltas_deg"),
+        mu=curve("second_row"),
+        check=None,
 
 
 rule compute_map_chunk:
@@ -56,7 +74,7 @@ rule compute_map_chunk:
         chunk=lambda wildcards: int(wildcards.chunk),
         chunks=MAP["chunks"],
     script:
-        "../../scripts/compute_map_chunk.py"
+        f"{SCRIPTS}/compute_map_chunk.py"
 
 
 rule merge_map:
@@ -81,7 +99,7 @@ rule merge_map:
         delta_deg=MAP["delta_deg"],
         phi_deg=MAP["phi_deg"],
     script:
-        "../../scripts/merge_map.py"
+        f"{SCRIPTS}/merge_map.py"
 
 
 rule compute_borders:
@@ -104,7 +122,28 @@ rule compute_borders:
         delta_deg=config["borders"]["delta_deg"],
         check=config["borders"]["check"],
     script:
-        "../../scripts/compute_borders.py"
+        f"{SCRIPTS}/compute_borders.py"
+
+
+rule compute_paper_border:
+    input:
+        border="results/borders/cone_{angle}.nc",
+        code=code_of("compute_paper_border"),
+    output:
+        artifact="results/paper_border/cone_{angle}.nc",
+        provenance="results/paper_border/cone_{angle}.provenance.json",
+    log:
+        "logs/compute_paper_border/cone_{angle}.log",
+    benchmark:
+        "logs/compute_paper_border/cone_{angle}.benchmark.tsv"
+    conda:
+        "../../envs/hopper.yaml"
+    threads: 1
+    params:
+        **config["paper_border"],
+        half_angle_deg=lambda wildcards: float(wildcards.angle),
+    script:
+        f"{SCRIPTS}/compute_paper_border.py"
 
 
 rule compute_domain_angle:
@@ -123,11 +162,12 @@ rule compute_domain_angle:
     params:
         **config["domain_angle"],
     script:
-        "../../scripts/compute_domain_angle.py"
+        f"{SCRIPTS}/compute_domain_angle.py"
 
 
 rule plot_fig_4_4:
     input:
+        unpack(second_row),
         wedge="results/friction/{figure}/wedge.nc",
         cone="results/friction/{figure}/cone.nc",
         code=code_of("plot_fig_4_4"),
@@ -149,19 +189,20 @@ rule plot_fig_4_4:
     benchmark:
         "logs/plot_fig_4_4/{figure}.benchmark.tsv"
     wildcard_constraints:
-        figure="fig_4_4(_30)?",
+        figure=targets.words(config["friction_curves"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1
     params:
         half_angle_deg=curve("half_angle_deg"),
     script:
-        "../../scripts/plot_fig_4_4.py"
+        f"{SCRIPTS}/plot_fig_4_4.py"
 
 
 rule plot_fig_4_5:
     input:
         borders=expand("results/borders/cone_{angle}.nc", angle=MAP["half_angles_deg"]),
+        papers=expand("results/paper_border/cone_{angle}.nc", angle=MAP["half_angles_deg"]),
         code=code_of("plot_fig_4_5"),
     output:
         png=report(
@@ -182,7 +223,7 @@ rule plot_fig_4_5:
         half_angles_deg=MAP["half_angles_deg"],
         largest_phi_deg=MAP["phi_deg"]["stop"],
     script:
-        "../../scripts/plot_fig_4_5.py"
+        f"{SCRIPTS}/plot_fig_4_5.py"
 
 
 rule plot_fig_4_5_map:
@@ -211,7 +252,7 @@ rule plot_fig_4_5_map:
         panels=[f"{case.replace('_', ', half angle ')}°" for case in CASES],
         color_range=config["fig_4_5_map"]["color_range"],
     script:
-        "../../scripts/plot_fig_4_5_map.py"
+        f"{SCRIPTS}/plot_fig_4_5_map.py"
 
 
 rule plot_fig_domain_angle:
@@ -236,4 +277,4 @@ rule plot_fig_domain_angle:
         "../../envs/hopper.yaml"
     threads: 1
     script:
-        "../../scripts/plot_fig_domain_angle.py"
+        f"{SCRIPTS}/plot_fig_domain_angle.py"

@@ -22,7 +22,7 @@ rule compute_flow_factor:
     params:
         **config["fig_jenike"],
     script:
-        "../../scripts/compute_flow_factor.py"
+        f"{SCRIPTS}/compute_flow_factor.py"
 
 
 rule plot_fig_jenike:
@@ -45,4 +45,4 @@ rule plot_fig_jenike:
         "../../envs/hopper.yaml"
     threads: 1
     script:
-        "../../scripts/plot_fig_jenike.py"
+        f"{SCRIPTS}/plot_fig_jenike.py"

@@ -26,4 +26,4 @@ rule plot_fig_1_1:
     params:
         **config["fig_1_1"],
     script:
-        "../../scripts/plot_fig_1_1.py"
+        f"{SCRIPTS}/plot_fig_1_1.py"

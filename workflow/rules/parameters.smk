@@ -41,6 +41,14 @@ def curve(key):
     return lambda wildcards: config["friction_curves"][wildcards.figure][key]
 
 
+def second_row(wildcards):
+    """The artifacts of a figure's second row, if it has one."""
+    if "second_row" not in config["friction_curves"][wildcards.figure]:
+        return {}
+    path = f"results/friction/{wildcards.figure}/{{}}_second.nc"
+    return {f"{geometry}_second": path.format(geometry) for geometry in ("wedge", "cone")}
+
+
 def own_hopper(wildcards):
     """One of the hoppers of `cases`, by its name."""
     return next(case for case in config["cases"] if case["name"] == wildcards.case)

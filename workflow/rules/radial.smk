@@ -15,6 +15,8 @@ rule solve_radial:
         "logs/solve_radial/{figure}.log",
     benchmark:
         "logs/solve_radial/{figure}.benchmark.tsv"
+    wildcard_constraints:
+        figure=targets.words(config["radial"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1
@@ -26,7 +28,7 @@ rule solve_radial:
         mu=lambda wildcards: config["radial"][wildcards.figure]["mu"],
         points=lambda wildcards: config["radial"][wildcards.figure]["points"],
     script:
-        "../../scripts/solve_radial.py"
+        f"{SCRIPTS}/solve_radial.py"
 
 
 rule plot_fig_3_1:
@@ -49,7 +51,7 @@ rule plot_fig_3_1:
         "../../envs/hopper.yaml"
     threads: 1
     script:
-        "../../scripts/plot_fig_3_1.py"
+        f"{SCRIPTS}/plot_fig_3_1.py"
 
 
 rule plot_fig_3_2:
@@ -74,4 +76,4 @@ rule plot_fig_3_2:
     params:
         stagnant_from_deg=config["fig_3_2"]["stagnant_from_deg"],
     script:
-        "../../scripts/plot_fig_3_2.py"
+        f"{SCRIPTS}/plot_fig_3_2.py"

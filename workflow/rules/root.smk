@@ -27,5 +27,7 @@ def checkout(source):
 HERE = workflow.current_basedir
 if isinstance(HERE, HostingProviderFile):
     ROOT = checkout(HERE)
+    SCRIPTS = ROOT / "scripts"
 else:
     ROOT = Path(HERE).parent.parent
+    SCRIPTS = "../../scripts"

@@ -15,6 +15,8 @@ rule compute_spectrum:
         "logs/compute_spectrum/{figure}_{geometry}_{nodes}.log",
     benchmark:
         "logs/compute_spectrum/{figure}_{geometry}_{nodes}.benchmark.tsv"
+    wildcard_constraints:
+        figure=targets.words(config["spectra"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1
@@ -25,7 +27,7 @@ rule compute_spectrum:
         mu=lambda wildcards: hopper_of(wildcards.figure)["mu"],
         nodes=lambda wildcards: int(wildcards.nodes),
     script:
-        "../../scripts/compute_spectrum.py"
+        f"{SCRIPTS}/compute_spectrum.py"
 
 
 rule filter_spectrum:
@@ -40,6 +42,8 @@ rule filter_spectrum:
         "logs/filter_spectrum/{figure}_{geometry}.log",
     benchmark:
         "logs/filter_spectrum/{figure}_{geometry}.benchmark.tsv"
+    wildcard_constraints:
+        figure=targets.words(config["spectra"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1
@@ -52,7 +56,7 @@ rule filter_spectrum:
         coarse_nodes=lambda wildcards: config["spectra"][wildcards.figure]["coarse_nodes"],
         tolerance=lambda wildcards: config["spectra"][wildcards.figure]["tolerance"],
     script:
-        "../../scripts/filter_spectrum.py"
+        f"{SCRIPTS}/filter_spectrum.py"
 
 
 rule compute_exact_spectrum:
@@ -65,6 +69,8 @@ rule compute_exact_spectrum:
         "logs/compute_exact_spectrum/{figure}_{geometry}.log",
     benchmark:
         "logs/compute_exact_spectrum/{figure}_{geometry}.benchmark.tsv"
+    wildcard_constraints:
+        figure=targets.words(config["spectra"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1
@@ -74,7 +80,7 @@ rule compute_exact_spectrum:
         half_angle_deg=lambda wildcards: hopper_of(wildcards.figure)["half_angle_deg"],
         modes=lambda wildcards: config["spectra"][wildcards.figure]["exact_modes"],
     script:
-        "../../scripts/compute_exact_spectrum.py"
+        f"{SCRIPTS}/compute_exact_spectrum.py"
 
 
 rule compute_stability:
@@ -87,6 +93,8 @@ rule compute_stability:
         "logs/compute_stability/{figure}_{geometry}.log",
     benchmark:
         "logs/compute_stability/{figure}_{geometry}.benchmark.tsv"
+    wildcard_constraints:
+        figure=targets.words(config["spectra"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1
@@ -96,7 +104,7 @@ rule compute_stability:
         half_angle_deg=lambda wildcards: hopper_of(wildcards.figure)["half_angle_deg"],
         mu=lambda wildcards: hopper_of(wildcards.figure)["mu"],
     script:
-        "../../scripts/compute_stability.py"
+        f"{SCRIPTS}/compute_stability.py"
 
 
 rule compute_smooth_wall:
@@ -115,7 +123,7 @@ rule compute_smooth_wall:
     params:
         **config["smooth_wall"],
     script:
-        "../../scripts/compute_smooth_wall.py"
+        f"{SCRIPTS}/compute_smooth_wall.py"
 
 
 rule plot_fig_4_1:
@@ -138,7 +146,7 @@ rule plot_fig_4_1:
         "../../envs/hopper.yaml"
     threads: 1
     script:
-        "../../scripts/plot_fig_4_1.py"
+        f"{SCRIPTS}/plot_fig_4_1.py"
 
 
 rule plot_fig_4_2:
@@ -166,7 +174,7 @@ rule plot_fig_4_2:
     params:
         zoom_imag=config["fig_4_2"]["zoom_imag"],
     script:
-        "../../scripts/plot_fig_4_2.py"
+        f"{SCRIPTS}/plot_fig_4_2.py"
 
 
 rule plot_fig_4_2_physical:
@@ -192,4 +200,4 @@ rule plot_fig_4_2_physical:
         "../../envs/hopper.yaml"
     threads: 1
     script:
-        "../../scripts/plot_fig_4_2_physical.py"
+        f"{SCRIPTS}/plot_fig_4_2_physical.py"

@@ -19,6 +19,8 @@ rule compute_transient:
         "logs/compute_transient/{figure}_{geometry}.log",
     benchmark:
         "logs/compute_transient/{figure}_{geometry}.benchmark.tsv"
+    wildcard_constraints:
+        figure=targets.words(config["transient"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1
@@ -30,7 +32,7 @@ rule compute_transient:
         psi_scales=transient("psi_scales"),
         elapsed=transient("elapsed"),
     script:
-        "../../scripts/compute_transient.py"
+        f"{SCRIPTS}/compute_transient.py"
 
 
 rule compute_pseudospectrum:
@@ -55,7 +57,7 @@ rule compute_pseudospectrum:
         real=PSEUDO["real"],
         imag=PSEUDO["imag"],
     script:
-        "../../scripts/compute_pseudospectrum.py"
+        f"{SCRIPTS}/compute_pseudospectrum.py"
 
 
 rule compute_sensitivity:
@@ -81,7 +83,7 @@ rule compute_sensitivity:
         frequencies=config["sensitivity"]["frequencies"],
         elapsed=config["sensitivity"]["elapsed"],
     script:
-        "../../scripts/compute_sensitivity.py"
+        f"{SCRIPTS}/compute_sensitivity.py"
 
 
 rule plot_fig_4_3:
@@ -105,7 +107,7 @@ rule plot_fig_4_3:
         "../../envs/hopper.yaml"
     threads: 1
     script:
-        "../../scripts/plot_fig_4_3.py"
+        f"{SCRIPTS}/plot_fig_4_3.py"
 
 
 rule plot_fig_4_3_norms:
@@ -129,7 +131,7 @@ rule plot_fig_4_3_norms:
         "../../envs/hopper.yaml"
     threads: 1
     script:
-        "../../scripts/plot_fig_4_3_norms.py"
+        f"{SCRIPTS}/plot_fig_4_3_norms.py"
 
 
 rule plot_fig_pseudospectrum:
@@ -160,7 +162,7 @@ rule plot_fig_pseudospectrum:
         levels_log10=PSEUDO["levels_log10"],
         norms={mode: PSEUDO["modes"][mode]["norm"] for mode in PSEUDO["modes"]},
     script:
-        "../../scripts/plot_fig_pseudospectrum.py"
+        f"{SCRIPTS}/plot_fig_pseudospectrum.py"
 
 
 rule plot_fig_resolvent:
@@ -186,4 +188,4 @@ rule plot_fig_resolvent:
         "../../envs/hopper.yaml"
     threads: 1
     script:
-        "../../scripts/plot_fig_resolvent.py"
+        f"{SCRIPTS}/plot_fig_resolvent.py"

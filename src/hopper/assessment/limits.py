@@ -5,7 +5,9 @@ from math import pi, tan
 
 import numpy as np
 
-from hopper.assessment.quantity import ROUNDING, Quantity, with_errors
+from hopper.arguments import checked
+from hopper.assessment.propagation import ROUNDING, with_errors
+from hopper.brief import brief
 from hopper.domain.borders import tangency_friction
 from hopper.errors import (
     ConvergenceError,
@@ -14,6 +16,7 @@ from hopper.errors import (
     NoRadialSolutionError,
 )
 from hopper.problem import Hopper
+from hopper.quantity import Quantity
 from hopper.radial.friction_limit import FrictionLimit, friction_limit
 from hopper.radial.mass_flow import mass_flow_friction_angle
 from hopper.radial.solution import solve_radial
@@ -37,8 +40,8 @@ class Limits:
     mass_flow : Quantity or None
         phi of sigma_0 -> 0, radians; None but for Mohr-Coulomb cones with sin(delta) >= 1/3.
     tangency : Quantity or None
-        mu at which psi reaches pi/4 - delta/2, where linear stability ends; None where it does
-        not, and for von Mises materials.
+        mu at which psi reaches pi/4 - delta/2, where a characteristic is tangent to the arc
+        r = const; None where it does not, and for von Mises materials.
     """
 
     friction: FrictionLimit | None
@@ -46,7 +49,15 @@ class Limits:
     mass_flow: Quantity | None
     tangency: Quantity | None
 
+    __repr__ = brief("coefficient", "mass_flow deg", "tangency")
 
+    @property
+    def fold(self) -> Quantity | None:
+        """``coefficient``, where a fold is what ends the branch."""
+        return self.coefficient if self.friction and self.friction.end == "fold" else None
+
+
+@checked
 def assess_limits(hopper: Hopper) -> Limits:
     """Return the limits of a hopper's wall friction."""
     mass_flow = _mass_flow(hopper)
@@ -58,6 +69,7 @@ def assess_limits(hopper: Hopper) -> Limits:
     return Limits(friction, coefficient(largest), mass_flow, tangency_coefficient(hopper))
 
 
+@checked
 def coefficient(angle: Quantity) -> Quantity:
     """Return mu = tan(phi) of a friction angle phi (radians)."""
     mu = tan(angle.value)
@@ -74,6 +86,7 @@ def _mass_flow(hopper: Hopper) -> Quantity | None:
     return Quantity(phi, abs(rounded - phi) + ROUNDING)
 
 
+@checked
 def tangency_coefficient(hopper: Hopper) -> Quantity | None:
     """Return the mu at which psi reaches pi/4 - delta/2, None where it does not."""
     if hopper.material != MOHR_COULOMB:

@@ -4,14 +4,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hopper.arguments import Radians, checked
 from hopper.arrays import Array
 from hopper.assessment.limits import Limits, assess_limits
-from hopper.assessment.quantity import SHIFT, Quantity, wall_angle_rounding, with_errors
+from hopper.assessment.propagation import wall_angle_rounding, with_errors
+from hopper.brief import brief
 from hopper.errors import ConvergenceError, NoRadialSolutionError, SingularVelocityError
 from hopper.problem import Hopper
-from hopper.radial.collocation import Member
+from hopper.quantity import Quantity
 from hopper.radial.flow_factor import flow_factor
-from hopper.radial.members import members_with_wall_angle
+from hopper.radial.members import number_of_solutions
 from hopper.radial.solution import RadialSolution, solve_radial
 from hopper.radial.velocity import VelocityField, solve_velocity
 
@@ -52,13 +54,17 @@ class RadialAssessment:
     limits: Limits
     notes: tuple[str, ...]
 
+    __repr__ = brief("sigma_axis", "sigma_wall", "flow_factor", "solutions")
+
+    @checked
     def profiles(self, theta: Array) -> tuple[Array, Array, Array | None]:
         """Return sigma, psi and u at ``theta`` (radians), each of shape (n,); u None if unknown."""
         sigma, psi, _, _ = self.solution.fields(theta)
         return sigma, psi, self.velocity.at(theta) if self.velocity else None
 
 
-def assess_radial(hopper: Hopper, friction_angle: float) -> RadialAssessment:
+@checked
+def assess_radial(hopper: Hopper, friction_angle: Radians) -> RadialAssessment:
     """Solve for the physical branch and return it in numbers.
 
     Raises
@@ -69,6 +75,7 @@ def assess_radial(hopper: Hopper, friction_angle: float) -> RadialAssessment:
     return describe_radial(solve_radial(hopper, friction_angle))
 
 
+@checked
 def describe_radial(solution: RadialSolution) -> RadialAssessment:
     """Return a radial solution of the physical branch in numbers."""
     notes = []
@@ -88,7 +95,7 @@ def describe_radial(solution: RadialSolution) -> RadialAssessment:
     if limits.friction is None:
         notes.append("the largest friction with a radial solution is not resolved")
     try:
-        solutions = 1 + len(_further_members(solution))
+        solutions = number_of_solutions(hopper, solution.friction_angle)
     except (ConvergenceError, NoRadialSolutionError):
         notes.append("the number of radial solutions is unknown: the family is not resolved")
     return RadialAssessment(
@@ -107,18 +114,11 @@ def describe_radial(solution: RadialSolution) -> RadialAssessment:
     )
 
 
-def _further_members(solution: RadialSolution) -> list[Member]:
-    """Return the members of the family with the same wall and less stress on the axis."""
-    member = solution.member
-    found = members_with_wall_angle(solution.hopper, member.psi_wall, start=member)
-    return [other for other in found if other.tau > (1 + SHIFT) * member.tau]
-
-
 def _numbers(solution: RadialSolution) -> Array:
     theta_psi_max, psi_max = solution.psi_maximum()
-    return np.array([
-        solution.sigma_axis, solution.sigma_wall, psi_max, theta_psi_max, flow_factor(solution),
-    ])  # fmt: skip
+    return np.array(
+        [solution.sigma_axis, solution.sigma_wall, psi_max, theta_psi_max, flow_factor(solution)]
+    )
 
 
 def _log_u_wall(solution: RadialSolution) -> Array:

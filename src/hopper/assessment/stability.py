@@ -3,39 +3,46 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import exp, pi
-from typing import Literal
 
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from hopper.arrays import Array, Complex
-from hopper.assessment.quantity import ROUNDING, Quantity, propagated
-from hopper.errors import ConvergenceError
+from hopper.arguments import checked
+from hopper.arrays import Complex
+from hopper.assessment.propagation import ROUNDING, propagated
+from hopper.brief import brief
+from hopper.quantity import Quantity
 from hopper.radial.solution import RadialSolution
 from hopper.spectral.transient import ModalBasis, condition_number, propagator_norm
-from hopper.stability.convergence_filter import convergence_filter
-from hopper.stability.mesh_spectrum import HALVES, mesh_spectrum
-from hopper.stability.modes import LinearStability, linear_stability, upper_eigenvalues
-from hopper.stability.transient import modal_basis
-
-Verdict = Literal["stable", "unstable", "neutral"]
+from hopper.stability.collocation import Parity
+from hopper.stability.modes import (
+    LEAST_MODES,
+    Disturbances,
+    LinearStability,
+    Modes,
+    Verdict,
+    linear_stability,
+    partner_changes,
+    upper_eigenvalues,
+)
+from hopper.stability.transient import tilted_basis
 
 # Half-grid points on which eigenvalues are followed under a shift of the fields.
-_SENSITIVITY_SIZE = 48
-# Nodes of the two meshes for transient growth, and the largest change of a kept mode between them.
-_NODES, _COARSE_NODES, _CHANGE = 96, 64, 1e-6
-# Round trips of a wave between axis and wall over which growth is followed; samples of each.
-_TRIPS, _SAMPLES = 4, 64
+_SENSITIVITY_SIZE = 36
+# Half-grid points of the two meshes for transient growth, and the largest change of a kept mode.
+_SIZE, _COARSE_SIZE, _CHANGE = 48, 32, 1e-6
+# Round trips of a wave between axis and wall over which growth is followed; samples of each, four
+# for each swing of the norm by the highest modes; accuracy of the time of the largest, in trips.
+_TRIPS, _SAMPLES, _TIME = 4, 128, 1e-8
 
 
 @dataclass(frozen=True)
 class Transient:
-    """Growth of perturbations in the span of the resolved modes of physical parity.
+    """Growth of symmetric perturbations in the span of the resolved modes, in tilted time.
 
-    The norm is L2 of (sigma1, psi1). Growth is followed for the first four round trips of a wave
-    between axis and wall. More modes resolve narrower perturbations, which can grow more; in
-    cones, where waves focus on the axis, without bound. So the number of modes is part of the
-    answer.
+    The norm is L2 of (sigma1, psi1) on t' = const; in cones with the weight sin(theta). Growth is
+    followed for the first four round trips of a wave between axis and wall. More modes resolve
+    narrower perturbations, which can grow more; so the number of modes is part of the answer.
 
     Attributes
     ----------
@@ -45,13 +52,15 @@ class Transient:
     amplification : Quantity
         Largest ||exp(-t M)|| / exp(-t alpha), alpha the spectral abscissa.
     growth : Quantity or None
-        Largest ||exp(-t M)||; None unless the hopper is stable.
+        Largest ||exp(-t M)||; None unless symmetric perturbations decay.
     """
 
     modes: int
     condition: Quantity
     amplification: Quantity
     growth: Quantity | None
+
+    __repr__ = brief("modes", "condition", "amplification")
 
 
 @dataclass(frozen=True)
@@ -62,90 +71,138 @@ class StabilityAssessment:
     ----------
     result : LinearStability
         Low modes, line, and what governs.
-    mode_errors : array, shape (n,)
-        Absolute errors of the low modes.
-    abscissa : Quantity
-    spectrum : complex array, shape (k,)
-        Low modes, and further modes resolved to 1e-6, Im >= 0, by modulus.
-    spectrum_errors : array, shape (k,)
-        Absolute.
+    modes : dict
+        Low modes of each parity of disturbances, with what the fields leave uncertain of them.
+    abscissa, symmetric : Quantity
+        Supremum of Re(lambda) over all disturbances looked at, and over symmetric ones.
+    asymmetric : Quantity or None
+        The same over asymmetric ones, where they were looked at.
+    spectrum : Modes
+        Symmetric modes resolved to 1e-6.
     transient : Transient or None
-        None where too few modes are resolved.
+        None where no mode is resolved as well.
     """
 
     result: LinearStability
-    mode_errors: Array
+    modes: dict[Parity, Modes]
     abscissa: Quantity
-    spectrum: Complex
-    spectrum_errors: Array
+    symmetric: Quantity
+    asymmetric: Quantity | None
+    spectrum: Modes
     transient: Transient | None
+
+    __repr__ = brief("verdict", "abscissa", "result.governed_by", "result.parity")
+
+    @property
+    def line(self) -> Quantity:
+        """Abscissa of the asymptotic line."""
+        return Quantity(self.result.line.abscissa, self.result.line.error_estimate)
 
     @property
     def verdict(self) -> Verdict:
-        """Stable or unstable; neutral where the error of the abscissa exceeds its size."""
+        """Neutral where the error of the abscissa exceeds its size."""
         if abs(self.abscissa.value) <= self.abscissa.error:
             return "neutral"
-        return "stable" if self.abscissa.value < 0 else "unstable"
+        if self.abscissa.value < 0:
+            return "stable"
+        symmetric = self.symmetric.value < -self.symmetric.error
+        return "stable_symmetric_only" if symmetric else "unstable"
 
 
-def assess_stability(solution: RadialSolution) -> StabilityAssessment:
+@checked
+def assess_stability(
+    solution: RadialSolution, disturbances: Disturbances | None = None, count: int = 6
+) -> StabilityAssessment:
     """Return the linear stability of a radial solution in numbers.
+
+    Parameters
+    ----------
+    solution : RadialSolution
+        Of a Mohr-Coulomb material.
+    disturbances : "symmetric" or "any", optional
+        Default: any for wedges, symmetric for cones.
+    count : int
+        Low modes of each parity wanted.
 
     Raises
     ------
     HopperError
-        As :func:`hopper.stability.stability`.
+        As :func:`hopper.stability.modes.linear_stability`.
     """
-    result, mode_errors, abscissa = abscissa_with_error(solution)
-    low = result.eigenvalues
-    kept, changes = _resolved_modes(solution)
-    # What rounding and the fields leave is alike for all modes, relative to their modulus.
-    changes = changes + np.abs(kept) * np.max(mode_errors / np.abs(low))
-    further = (kept.imag >= 0) & (np.abs(kept) > (1 + _CHANGE) * np.abs(low[-1]))
+    result, modes, suprema = _with_errors(solution, disturbances, count)
+    spectrum = _resolved_modes(solution, modes["symmetric"])
     return StabilityAssessment(
         result,
-        mode_errors,
-        abscissa,
-        spectrum=np.concatenate([low, kept[further]]),
-        spectrum_errors=np.concatenate([mode_errors, changes[further]]),
-        transient=_transient(solution, kept, result) if kept.size else None,
+        modes,
+        abscissa=_largest(suprema),
+        symmetric=suprema["symmetric"],
+        asymmetric=suprema.get("asymmetric"),
+        spectrum=spectrum,
+        transient=_transient(solution, spectrum.eigenvalues, result),
     )
 
 
-def abscissa_with_error(solution: RadialSolution) -> tuple[LinearStability, Array, Quantity]:
-    """Return what decides stability, the errors of its low modes, and the abscissa."""
-    result = linear_stability(solution)
-    modes = result.eigenvalues
+@checked
+def abscissa_with_error(
+    solution: RadialSolution, disturbances: Disturbances | None = None
+) -> tuple[LinearStability, Quantity]:
+    """Return what decides the stability of a solution, and its abscissa with error."""
+    result, _, suprema = _with_errors(solution, disturbances)
+    return result, _largest(suprema)
+
+
+def _with_errors(
+    solution: RadialSolution, disturbances: Disturbances | None, count: int = LEAST_MODES
+) -> tuple[LinearStability, dict[Parity, Modes], dict[Parity, Quantity]]:
+    """Return the stability, its modes with what the fields leave in them, and each supremum."""
+    result = linear_stability(solution, disturbances, count)
+    modes = {
+        parity: _with_fields(solution, parity, found) for parity, found in result.modes.items()
+    }
+    # The line's own estimate covers the fields.
+    suprema = {name: Quantity(*found.supremum(result.line)) for name, found in modes.items()}
+    return result, modes, suprema
+
+
+def _largest(suprema: dict[Parity, Quantity]) -> Quantity:
+    return max(suprema.values(), key=lambda supremum: supremum.value)
+
+
+def _with_fields(solution: RadialSolution, parity: Parity, found: Modes) -> Modes:
+    """Return modes with the errors that the fields leave in them added."""
+    modes = found.eigenvalues
 
     def followed(shifted: RadialSolution) -> Complex:
-        found = upper_eigenvalues(shifted, _SENSITIVITY_SIZE)
-        return found[np.abs(modes[:, None] - found).argmin(axis=1)]
+        near = upper_eigenvalues(shifted, _SENSITIVITY_SIZE, parity)
+        return near[np.abs(modes[:, None] - near).argmin(axis=1)]
 
     before = followed(solution)
     share = propagated(solution, lambda shifted: np.abs(followed(shifted) - before))
-    errors = result.mode_errors + share
-    # The line's own estimate covers the fields already.
-    governed_by_mode = result.governed_by == "mode"
-    error = float(errors[np.argmax(modes.real)]) if governed_by_mode else result.error_estimate
-    return result, errors, Quantity(result.abscissa, error)
+    return Modes(modes, found.errors + share)
 
 
-def _resolved_modes(solution: RadialSolution) -> tuple[Complex, Array]:
-    """Return the modes of physical parity on which two meshes agree, and by how much (absolute)."""
-    fine, coarse = mesh_spectrum(solution, _NODES), mesh_spectrum(solution, _COARSE_NODES)
-    try:
-        found = convergence_filter(fine, coarse, _CHANGE)
-    except ConvergenceError:
-        return np.empty(0, complex), np.empty(0)
-    kept = found.kept & (fine.half == HALVES.index("physical"))
-    # Both of a pair or none: the filter's thresholds see them apart by rounding.
-    kept &= np.isin(fine.eigenvalues.conj(), fine.eigenvalues[kept])
-    modes = fine.eigenvalues[kept]
-    return modes, found.change[kept] * np.abs(modes)
+def _resolved_modes(solution: RadialSolution, low: Modes) -> Modes:
+    """Return the symmetric modes on which two meshes agree, and by how much (absolute)."""
+    fine, coarse = (upper_eigenvalues(solution, size) for size in (_SIZE, _COARSE_SIZE))
+    change = partner_changes(fine, coarse)
+    resolved = int(np.argmax(change >= _CHANGE)) if (change >= _CHANGE).any() else fine.size
+    kept = fine[:resolved]
+    size = np.maximum(np.abs(kept), 1)
+    # What rounding and the fields leave is alike for all modes, relative to their modulus.
+    fields = np.max(low.errors / np.maximum(np.abs(low.eigenvalues), 1))
+    return Modes(kept, (change[:resolved] + fields) * size)
 
 
-def _transient(solution: RadialSolution, kept: Complex, result: LinearStability) -> Transient:
-    fine, coarse = (modal_basis(solution, n, "physical", kept) for n in (_NODES, _COARSE_NODES))
+def _transient(
+    solution: RadialSolution, upper: Complex, result: LinearStability
+) -> Transient | None:
+    if not upper.size:
+        return None
+    kept = np.concatenate([upper, upper[upper.imag > 0].conj()])
+    fine, coarse = (
+        tilted_basis(solution, size, "symmetric", kept) for size in (_SIZE, _COARSE_SIZE)
+    )
+    abscissa, _ = result.symmetric
     period = 2 * pi / result.line.spacing
 
     def on_both(number: Callable[[ModalBasis], float]) -> Quantity:
@@ -159,8 +216,8 @@ def _transient(solution: RadialSolution, kept: Complex, result: LinearStability)
     return Transient(
         modes=kept.size,
         condition=on_both(lambda basis: condition_number([basis])),
-        amplification=largest(result.abscissa),
-        growth=largest(0.0) if result.stable else None,
+        amplification=largest(abscissa),
+        growth=largest(0.0) if abscissa < 0 else None,
     )
 
 
@@ -174,6 +231,9 @@ def _time_of_largest(basis: ModalBasis, rate: float, period: float) -> float:
     peak = times[np.argmax(propagator_norm([basis], times) * np.exp(-rate * times))]
     around = max(0.0, peak - times[1]), min(peak + times[1], times[-1])
     found = minimize_scalar(
-        lambda elapsed: -_scaled_norm(basis, elapsed, rate), bounds=around, method="bounded"
+        lambda elapsed: -_scaled_norm(basis, elapsed, rate),
+        bounds=around,
+        method="bounded",
+        options={"xatol": _TIME * period},
     )
     return float(found.x)

@@ -6,49 +6,23 @@ Every number carries an absolute error.
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from hopper.assessment.limits import Limits, assess_limits, tangency_coefficient
-from hopper.assessment.neutral import NeutralPoint, assess_neutral, largest_neutral_coefficient
-from hopper.assessment.quantity import Quantity
-from hopper.assessment.radial import RadialAssessment, assess_radial, describe_radial
-from hopper.assessment.stability import StabilityAssessment, Transient, Verdict, assess_stability
+from hopper.arguments import Radians, checked
+from hopper.assessment.limits import Limits, assess_limits
+from hopper.assessment.radial import RadialAssessment, assess_radial
+from hopper.assessment.stability import StabilityAssessment, assess_stability
+from hopper.brief import brief
 from hopper.errors import (
     ConvergenceError,
     HopperError,
     InvalidParameterError,
     NonPositiveStressError,
     NoRadialSolutionError,
-    TangencyError,
 )
 from hopper.problem import Hopper
-
-__all__ = [
-    "OUTCOMES",
-    "Assessment",
-    "Limits",
-    "NeutralPoint",
-    "Outcome",
-    "Quantity",
-    "RadialAssessment",
-    "StabilityAssessment",
-    "Transient",
-    "Verdict",
-    "assess",
-    "assess_limits",
-    "assess_neutral",
-    "assess_radial",
-    "assess_stability",
-    "describe_radial",
-    "largest_neutral_coefficient",
-    "tangency_coefficient",
-]
+from hopper.stability.modes import Verdict
 
 Outcome = Literal[
-    Verdict,
-    "tangent_characteristic",
-    "no_radial_solution",
-    "non_positive_stress",
-    "not_converged",
-    "not_formulated",
+    Verdict, "no_radial_solution", "non_positive_stress", "not_converged", "not_formulated"
 ]
 OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
 
@@ -74,8 +48,11 @@ class Assessment:
     outcome: Outcome
     reason: str
 
+    __repr__ = brief("outcome", "stability.abscissa", "limits.coefficient")
 
-def assess(hopper: Hopper, friction_angle: float) -> Assessment:
+
+@checked
+def assess(hopper: Hopper, friction_angle: Radians) -> Assessment:
     """Return what is known about a hopper with a wall of friction ``friction_angle`` (radians).
 
     Raises
@@ -91,7 +68,7 @@ def assess(hopper: Hopper, friction_angle: float) -> Assessment:
         return Assessment(assess_limits(hopper), None, None, _OUTCOMES[type(error)], str(error))
     try:
         found = assess_stability(radial.solution)
-    except (TangencyError, ConvergenceError, InvalidParameterError) as error:
+    except (ConvergenceError, InvalidParameterError) as error:
         return Assessment(radial.limits, radial, None, _OUTCOMES[type(error)], str(error))
     return Assessment(radial.limits, radial, found, found.verdict, "")
 
@@ -100,7 +77,6 @@ _OUTCOMES: dict[type[HopperError], Outcome] = {
     NoRadialSolutionError: "no_radial_solution",
     NonPositiveStressError: "non_positive_stress",
     ConvergenceError: "not_converged",
-    TangencyError: "tangent_characteristic",
     # The only one that stability knows is a material it has no equations for.
     InvalidParameterError: "not_formulated",
 }

@@ -1,31 +1,33 @@
-"""The domain of stability in the plane of internal and wall friction, and its borders.
+"""Borders of the stable domain in the plane of internal and wall friction.
 
-At a given wall friction a hopper is stable above a neutral delta. Towards rougher walls the domain
-ends where psi reaches pi/4 - delta/2 and a characteristic becomes tangent to the arcs r = const
-(tangency); beyond that t = log r is not like time, and no verdict is given.
+The domain is bounded by the neutral curve and by the limit of wall friction, at which the family of
+radial solutions ends. Two levels of psi are drawn with it and bound nothing of it: at
+pi/4 - delta/2 (tangency) the arcs r = const are characteristic, at pi/4 the velocity is singular,
+so that no radial flow reaches the wall although stress and its stability are regular.
 """
 
 from dataclasses import dataclass
-from math import atan, cos, pi, sin
+from math import pi
+from typing import Self
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
+from hopper.arguments import Radians, RealRow, checked
 from hopper.arrays import Array
-from hopper.domain.neutral import ROOT_TOLERANCE, NeutralCurve
-from hopper.errors import (
-    InvalidParameterError,
-    NoRadialSolutionError,
-)
+from hopper.brief import brief
+from hopper.domain.growth import ROOT_TOLERANCE
+from hopper.domain.neutral_curve import NeutralCurve
+from hopper.errors import NoRadialSolutionError
 from hopper.problem import Geometry, Hopper
 from hopper.radial.collocation import Closure, Member
 from hopper.radial.family import family, neighbour
 from hopper.radial.friction_limit import friction_limit
 from hopper.radial.solution import solution_of
-from hopper.stability.linearisation import tangency_angle
+from hopper.stability.tilted import require_mohr_coulomb, tangency_angle
 
 
+@checked
 def friction_reaching(hopper: Hopper, psi: float) -> float | None:
     """Return the wall friction angle (radians) at which the largest psi equals ``psi`` (radians).
 
@@ -74,49 +76,26 @@ def _friction_between(below: Member, above: Member, psi: float) -> float | None:
     return law.friction_angle(delta, reached.psi_wall)
 
 
+@checked
 def tangency_friction(hopper: Hopper) -> float | None:
     """Return the wall friction angle (radians) at which psi first reaches pi/4 - delta/2.
 
     At the wall this is mu = sin(delta) cos(delta) / (1 + sin(delta)**2). None as
     :func:`friction_reaching`.
-    """
-    return friction_reaching(hopper, tangency_angle(hopper.delta))
-
-
-def singular_velocity_friction(hopper: Hopper) -> float | None:
-    """Return the wall friction angle (radians) at which psi reaches pi/4, None as above."""
-    return friction_reaching(hopper, pi / 4)
-
-
-def tangency_curve(geometry: Geometry, half_angle: float, deltas: ArrayLike) -> Array:
-    """Return the tangency friction angle (radians) over ``deltas``, NaN where there is none."""
-    found = [
-        tangency_friction(Hopper(geometry, float(delta), half_angle))
-        for delta in np.asarray(deltas, dtype=float)
-    ]
-    return np.array([np.nan if phi is None else phi for phi in found])
-
-
-def stable_area(curve: NeutralCurve, deltas: ArrayLike, tangency: ArrayLike) -> float:
-    """Return the area (radians squared) between the neutral curve and the tangency.
-
-    ``deltas`` and ``tangency`` trace the tangency from the end of the neutral curve to the largest
-    delta considered, which closes the domain together with phi = 0. Where the tangency is NaN not
-    even the smooth wall belongs to the domain.
 
     Raises
     ------
     InvalidParameterError
-        If the tangency is NaN everywhere.
+        If the material is not Mohr-Coulomb.
     """
-    known = np.isfinite(np.asarray(tangency, dtype=float))
-    if not known.any():
-        raise InvalidParameterError("tangency is NaN at every delta: there is no stable domain")
-    delta = np.asarray(deltas, dtype=float)[known]
-    phi = np.asarray(tangency, dtype=float)[known]
-    x = np.concatenate([curve.delta, delta, delta[-1:], curve.delta[:1]])
-    y = np.concatenate([curve.friction_angle, phi, [0.0], [0.0]])
-    return float(abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) / 2)
+    require_mohr_coulomb(hopper)
+    return friction_reaching(hopper, tangency_angle(hopper.delta))
+
+
+@checked
+def singular_velocity_friction(hopper: Hopper) -> float | None:
+    """Return the wall friction angle (radians) at which psi reaches pi/4, None as above."""
+    return friction_reaching(hopper, pi / 4)
 
 
 @dataclass(frozen=True)
@@ -146,8 +125,16 @@ class Borders:
     tangency: Array
     singular_velocity: Array
 
+    __repr__ = brief("delta deg", "limit deg", "tangency deg")
 
-def borders(geometry: Geometry, half_angle: float, deltas: ArrayLike) -> Borders:
+    def thinned(self) -> Self:
+        """Return every second point, the last included: for an error estimate."""
+        every = slice((self.delta.size - 1) % 2, None, 2)
+        return type(self)(*(values[every] for values in vars(self).values()))
+
+
+@checked
+def borders(geometry: Geometry, half_angle: Radians, deltas: RealRow) -> Borders:
     """Return the borders of what is known about a hopper's stability over ``deltas`` (radians).
 
     Raises
@@ -155,7 +142,7 @@ def borders(geometry: Geometry, half_angle: float, deltas: ArrayLike) -> Borders
     ConvergenceError
         If a radial solution on a border is not resolved.
     """
-    delta = np.asarray(deltas, dtype=float)
+    delta = np.asarray(deltas)
     table = np.full((4, delta.size), np.nan)
     ends = []
     for i, value in enumerate(delta):
@@ -175,6 +162,35 @@ def borders(geometry: Geometry, half_angle: float, deltas: ArrayLike) -> Borders
     return Borders(delta, table[0], table[1], tuple(ends), table[2], table[3])
 
 
-def wall_tangency_friction(delta: float) -> float:
-    """Return the friction angle (radians) of the wall on which psi_w = pi/4 - delta/2."""
-    return atan(sin(delta) * cos(delta) / (1 + sin(delta) ** 2))
+@checked
+def stable_outline(curve: NeutralCurve, found: Borders) -> tuple[Array, Array]:
+    """Return delta and phi (radians) along the outline of the stable domain, closed by the caller.
+
+    From the smooth wall along the neutral curve, then along the limit of wall friction to the
+    largest delta of ``found``, and down to phi = 0. The limit must be known at every delta beyond
+    the curve's end.
+    """
+    beyond = (found.delta > curve.delta[-1]) & np.isfinite(found.limit)
+    right = found.delta[-1:]
+    return (
+        np.concatenate([curve.delta, found.delta[beyond], right, curve.delta[:1]]),
+        np.concatenate([curve.friction_angle, found.limit[beyond], [0.0, 0.0]]),
+    )
+
+
+@checked
+def stable_area(curve: NeutralCurve, found: Borders) -> tuple[float, float]:
+    """Return the area (radians squared) of the stable domain, and of its part with psi < pi/4.
+
+    Up to the largest delta of ``found``. In the rest of the domain no radial flow reaches the wall.
+    """
+    delta, phi = stable_outline(curve, found)
+    unreached = np.isnan(found.singular_velocity)
+    level = np.where(unreached, pi / 2, found.singular_velocity)
+    below = np.minimum(phi, np.interp(delta, found.delta, level))
+    return _enclosed(delta, phi), _enclosed(delta, below)
+
+
+def _enclosed(x: Array, y: Array) -> float:
+    """Return the area inside a closed polygon, or of its part below a level that cuts ``y``."""
+    return float(abs(np.sum((np.roll(x, -1) - x) * (np.roll(y, -1) + y))) / 2)

@@ -3,32 +3,45 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
+from hopper.arguments import RealRow, checked
 from hopper.arrays import Array
-from hopper.errors import (
-    ConvergenceError,
-    InvalidParameterError,
-    TangencyError,
-)
-from hopper.problem import Hopper, require_angle
+from hopper.brief import brief
+from hopper.errors import ConvergenceError, InvalidParameterError, NoRadialSolutionError
+from hopper.problem import Hopper
+from hopper.radial.branch import branch_up_to, members_on
 from hopper.radial.collocation import Member
-from hopper.radial.family import family_from
-from hopper.radial.friction_limit import friction_limit_from
 from hopper.radial.members import physical_member
 from hopper.radial.solution import solution_of
-from hopper.stability.modes import LinearStability, linear_stability
+from hopper.stability.collocation import PARITIES, Parity
+from hopper.stability.modes import (
+    GOVERNORS,
+    Disturbances,
+    Governor,
+    LinearStability,
+    linear_stability,
+    parities_among,
+    stacked_starts,
+)
+from hopper.values import require_angle
 
 REGIONS = (
     "stable",
+    "stable_symmetric_only",
     "unstable",
-    "tangent_characteristic",
     "no_radial_solution",
     "no_wall_angle",
     "non_positive_stress",
     "not_converged",
 )
-_TANGENT, _NO_SOLUTION, _NO_WALL, _NON_POSITIVE, _NOT_CONVERGED = range(2, 7)
+GOVERNED_BY = ("none", *GOVERNORS)
+PARITY = ("none", *PARITIES)
+_STABLE, _SYMMETRIC, _UNSTABLE, _NO_SOLUTION, _NO_WALL, _NON_POSITIVE, _NOT_CONVERGED = range(7)
+# Relative errors of the governing mode, and of the others, which must only be seen to lie below.
+_TOLERANCE, _OTHERS = 1e-9, 1e-5
+# Errors of the radial fields that leave that.
+_FIELDS = 1e-11
 
 
 @dataclass(frozen=True)
@@ -37,83 +50,116 @@ class Sweep:
 
     Attributes
     ----------
+    friction_angle : array, shape (n,)
+        phi, radians.
     region : integer array, shape (n,)
         Index into ``REGIONS``.
-    abscissa, line, highest_mode, error_estimate : arrays, shape (n,)
-        Supremum of Re(lambda), abscissa of the asymptotic line, largest real part of a low mode,
-        error of the abscissa.
+    abscissa, error_estimate : arrays, shape (n,)
+        Supremum of Re(lambda) over the disturbances looked at, and its error.
+    symmetric, asymmetric : arrays, shape (n,)
+        The same for each parity; the second is NaN where it was not looked at.
+    line : array, shape (n,)
+        Abscissa of the asymptotic line.
+    psi_max : array, shape (n,)
+        Largest psi on the radial solution's nodes, radians.
+    governed_by, parity : integer arrays, shape (n,)
+        What the abscissa is due to, index into ``GOVERNED_BY`` and ``PARITY``; 0 without a verdict,
+        and the parity also where the line governs.
     """
 
+    friction_angle: Array
     region: NDArray[np.int8]
     abscissa: Array
-    line: Array
-    highest_mode: Array
     error_estimate: Array
+    symmetric: Array
+    asymmetric: Array
+    line: Array
+    psi_max: Array
+    governed_by: NDArray[np.int8]
+    parity: NDArray[np.int8]
+
+    __repr__ = brief("friction_angle deg", "abscissa", "error_estimate")
 
 
-def sweep_friction(hopper: Hopper, friction_angles: ArrayLike) -> Sweep:
+@checked
+def sweep_friction(
+    hopper: Hopper, friction_angles: RealRow, disturbances: Disturbances | None = None
+) -> Sweep:
     """Evaluate a hopper at increasing wall friction angles (radians).
 
-    Neighbours start each other's iteration. Beyond the tangency only the existence of a radial
-    solution is decided, by the limit of its branch.
+    ``disturbances`` as in :func:`hopper.stability.modes.linear_stability`.
 
     Raises
     ------
     InvalidParameterError
         If the angles do not increase or lie outside [0, pi/2).
     """
-    angles = np.asarray(friction_angles, dtype=float)
+    angles = np.asarray(friction_angles)
     if np.any(np.diff(angles) <= 0):
         raise InvalidParameterError("friction_angles must increase: sort and remove repeated ones")
     for angle in angles:
         require_angle("friction_angle", angle, zero_allowed=True)
     region = np.full(angles.size, _NO_SOLUTION, dtype=np.int8)
     region[angles > hopper.material.largest_friction_angle(hopper.delta)] = _NO_WALL
-    values = np.full((4, angles.size), np.nan)
-    last: Member | None = None
-    for i in np.flatnonzero(region == _NO_SOLUTION):
-        rest = (np.arange(angles.size) >= i) & (region == _NO_SOLUTION)
+    values = np.full((6, angles.size), np.nan)
+    codes = np.zeros((2, angles.size), dtype=np.int8)
+    allowed = np.flatnonzero(region == _NO_SOLUTION)
+    members, region[allowed] = _members(hopper, angles[allowed])
+    solved = {i: solution_of(m) for i, m in zip(allowed, members, strict=True) if m and m.tau > 0}
+    starts = stacked_starts(list(solved.values()), parities_among(disturbances, hopper.geometry))
+    for (i, solution), start in zip(solved.items(), starts, strict=True):
         try:
-            member = physical_member(hopper, float(angles[i]), last)
-            if member is None:
-                region[rest & (angles <= _limit(last, angles[-1]))] = _NOT_CONVERGED
-                break
-            last = member
-            if member.tau <= 0:
-                region[i] = _NON_POSITIVE
-                continue
-            result = linear_stability(solution_of(member))
+            result = linear_stability(
+                solution, disturbances, tolerance=_TOLERANCE, others=_OTHERS, start=start
+            )
         except ConvergenceError:
             region[i] = _NOT_CONVERGED
-        except TangencyError:
-            region[rest & (angles <= _limit(last, angles[-1]))] = _TANGENT
-            break
         else:
-            region[i] = 0 if result.stable else 1
-            values[:, i] = _numbers(result)
-    return Sweep(region, *values)
+            region[i], values[:-1, i], codes[:, i] = _row(result)
+            values[-1, i] = solution.psi.max()
+    return Sweep(angles, region, *values, *codes)
 
 
-def _limit(member: Member | None, highest: float) -> float:
-    """Return the largest friction angle with a solution, or ``highest`` if it is no smaller.
-
-    That of ``member`` where it is not resolved.
-    """
-    if member is None:
-        return -np.inf
-    law, delta = member.hopper.material, member.hopper.delta
-    for following in family_from(member):
-        if following.psi_wall_by_tau <= 0:
-            break
-        member = following
-        if law.friction_angle(delta, member.psi_wall) >= highest:
-            return highest
+def _members(hopper: Hopper, angles: Array) -> tuple[list[Member | None], NDArray[np.int8]]:
+    """Return the members at wall frictions, None where none is found, and their regions."""
+    region = np.full(angles.size, _NO_SOLUTION, dtype=np.int8)
+    psi_walls = np.array([hopper.material.wall_angle(hopper.delta, phi) for phi in angles])
     try:
-        return friction_limit_from(member).friction_angle
-    except ConvergenceError:
-        return solution_of(member).friction_angle
+        branch = branch_up_to(hopper, float(psi_walls.max(initial=0.0)))
+    except NoRadialSolutionError:
+        return [None] * angles.size, region
+    members = members_on(branch, psi_walls, _FIELDS)
+    last: Member | None = None
+    for i, angle in enumerate(angles):
+        if branch.ends_before(float(psi_walls[i])):
+            break
+        region[i] = _NOT_CONVERGED
+        try:
+            members[i] = member = members[i] or physical_member(hopper, float(angle), last)
+        except ConvergenceError:
+            continue
+        if member is None:
+            region[i] = _NO_SOLUTION
+            break
+        last = member
+        if member.tau <= 0:
+            region[i] = _NON_POSITIVE
+    return members, region
 
 
-def _numbers(result: LinearStability) -> tuple[float, float, float, float]:
-    highest = float(result.eigenvalues.real.max())
-    return result.abscissa, result.line.abscissa, highest, result.error_estimate
+def _row(result: LinearStability) -> tuple[int, tuple[float, ...], tuple[int, int]]:
+    """Return the region, the numbers and the codes of a verdict."""
+    asymmetric = result.asymmetric
+    numbers = (
+        result.abscissa,
+        result.error_estimate,
+        result.symmetric[0],
+        np.nan if asymmetric is None else asymmetric[0],
+        result.line.abscissa,
+    )
+    region = _STABLE if result.stable else _SYMMETRIC if numbers[2] < 0 else _UNSTABLE
+    return region, numbers, _codes(result.governed_by, result.parity)
+
+
+def _codes(governor: Governor, parity: Parity | None) -> tuple[int, int]:
+    return GOVERNED_BY.index(governor), PARITY.index(parity or "none")

@@ -15,15 +15,19 @@ References
 import numpy as np
 from scipy.linalg import null_space
 
+from hopper.arguments import Fraction, checked
 from hopper.arrays import Array, Complex
+from hopper.errors import InvalidParameterError
 from hopper.evidence.motion import stress
 from hopper.yield_conditions import MOHR_COULOMB, YieldCondition
 
 _SAMPLES = 8
 _REAL = 1e-6
+_LEAST_SINE = 1e-100
 
 
-def real_characteristics(law: YieldCondition, s: float, psi: float) -> int:
+@checked
+def real_characteristics(law: YieldCondition, s: Fraction, psi: float) -> int:
     """Return how many of the four characteristics of a radial stress state are real.
 
     ``s`` = sin(delta), ``psi`` in radians; a double one counts twice.
@@ -31,12 +35,15 @@ def real_characteristics(law: YieldCondition, s: float, psi: float) -> int:
     return int(np.sum(np.abs(characteristic_normals(law, s, psi).imag) < _REAL))
 
 
-def characteristic_normals(law: YieldCondition, s: float, psi: float) -> Complex:
+@checked
+def characteristic_normals(law: YieldCondition, s: Fraction, psi: float) -> Complex:
     """Return the angles from e_r to the normals of the characteristics, complex, shape (4,)."""
     # Even and of degree 4 on the circle: with w = exp(2 i angle), w**-2 times a quartic in w.
     angles = np.pi * np.arange(_SAMPLES) / _SAMPLES
     symbol = _mohr_coulomb_symbol if law == MOHR_COULOMB else _von_mises_symbol
     values = [np.linalg.det(symbol(law, s, psi, np.cos(a), np.sin(a))) for a in angles]
+    if s < _LEAST_SINE or not np.isfinite(values).all():
+        raise InvalidParameterError(f"s = {s:.3g} and psi = {psi:.3g} have no finite coefficients")
     modes = np.fft.fft(values)
     return np.log(np.roots(modes[[2, 1, 0, -1, -2]]).astype(complex)) / 2j
 

@@ -12,6 +12,7 @@ from math import log10
 
 import numpy as np
 
+from hopper.arguments import checked
 from hopper.arrays import Array
 from hopper.spectral import chebyshev
 from hopper.spectral.matching import relative_changes
@@ -19,16 +20,19 @@ from hopper.spectral.pseudospectrum import eigenvalue_condition_numbers
 from hopper.spectral.schur import schur_form
 
 
+@checked
 def first_derivative_matrix(n: int) -> Array:
     """Return d/dx on ``n`` nodes for functions that vanish at x = 1, shape (n - 1, n - 1)."""
     return chebyshev.differentiation_matrix(n)[:-1, :-1]
 
 
+@checked
 def largest_condition(n: int) -> float:
     """Return the largest condition number of an eigenvalue of the matrix on ``n`` nodes."""
     return float(eigenvalue_condition_numbers(schur_form(first_derivative_matrix(n)))[1].max())
 
 
+@checked
 def digits_lost(n: int) -> float:
     """Return the decimal digits that rounding costs the worst conditioned eigenvalue.
 
@@ -38,6 +42,7 @@ def digits_lost(n: int) -> float:
     return log10(largest_condition(n))
 
 
+@checked
 def agreeing_eigenvalues(n: int, coarse_n: int, tolerance: float) -> int:
     """Return how many eigenvalues on ``n`` nodes have a one-to-one partner on ``coarse_n``.
 

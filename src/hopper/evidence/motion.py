@@ -10,17 +10,17 @@ from math import pi
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from hopper.arrays import Array, Complex
+from hopper.arguments import Fraction, Row, checked
+from hopper.arrays import Array, Complex, Numbers
+from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 from hopper.radial.grid import half_grid
 from hopper.radial.solution import RadialSolution
 from hopper.radial.velocity import VelocityField
 from hopper.spectral import chebyshev
+from hopper.values import require_equal_shapes
 from hopper.yield_conditions import MOHR_COULOMB, VON_MISES, YieldCondition
-
-Numbers = NDArray[np.inexact]
 
 _COMPLEX_STEP = 1e-30
 _SMALL_PSI = 1e-8
@@ -35,8 +35,12 @@ class Tensor(NamedTuple):
     rt: Numbers
 
 
-def stress(law: YieldCondition, s: float, sigma: Numbers | float, psi: Numbers | float) -> Tensor:
+@checked
+def stress(
+    law: YieldCondition, s: Fraction, sigma: Numbers | float, psi: Numbers | float
+) -> Tensor:
     """Return the stress of average sigma and angle psi (radians), (3.1) or (3.2); s = sin delta."""
+    require_equal_shapes(sigma=sigma, psi=psi)
     return Tensor(*(sigma * part for part in _shape(law, s, psi)))
 
 
@@ -60,11 +64,14 @@ def _rate(
     return Tensor(*(dsigma * part + sigma * 2 * s * slope * dpsi for part, slope in parts))
 
 
+@checked
 def strain_rate(u: Array, du: Array, curvature: int) -> Tensor:
     """Return that of radial flow v = -u(theta) r**(1 - d) e_r at r = 1; curvature = d - 2."""
+    require_equal_shapes(u=u, du=du)
     return Tensor(-(1 + curvature) * u, u, curvature * u, du / 2)
 
 
+@checked
 def yield_residual(law: YieldCondition, s: float, t: Tensor) -> Numbers:
     """Return left minus right side of (2.4'), (2.5') over the square of the average stress."""
     if law == MOHR_COULOMB:
@@ -75,6 +82,7 @@ def yield_residual(law: YieldCondition, s: float, t: Tensor) -> Numbers:
     return squares / p**2 - 2 * s**2
 
 
+@checked
 def principal_stresses(t: Tensor) -> Array:
     """Return the eigenvalues of a stress, ascending, shape (n, 3)."""
     matrix = np.zeros((*t.rr.shape, 3, 3))
@@ -83,11 +91,13 @@ def principal_stresses(t: Tensor) -> Array:
     return np.linalg.eigvalsh(matrix)
 
 
+@checked
 def friction_on_wall(t: Tensor) -> Numbers:
     """Return the ratio of tangential to normal stress on a wall theta = const, mu of (2.15)."""
     return -t.rt / t.tt
 
 
+@checked
 def flow_exponent(law: YieldCondition, t: Tensor, psi: Array, curvature: int) -> Numbers:
     """Return c in u' = -c u tan(2 psi) that the flow rule asks of radial flow.
 
@@ -112,7 +122,10 @@ class LevyFactor:
     least: float
     defect: float
 
+    __repr__ = brief("least", "defect")
 
+
+@checked
 def levy_factor(solution: RadialSolution, velocity: VelocityField) -> LevyFactor:
     """Return how well a von Mises cone obeys Levy's flow rule, for u(0) = 1.
 
@@ -137,6 +150,7 @@ def levy_factor(solution: RadialSolution, velocity: VelocityField) -> LevyFactor
     return LevyFactor(float(chi.min()), float(defect.max()))
 
 
+@checked
 def velocity_coupling(solution: RadialSolution, *, radial_only: bool) -> float:
     """Return how strongly the stress equations react to a perturbation of the velocity.
 
@@ -159,7 +173,8 @@ def velocity_coupling(solution: RadialSolution, *, radial_only: bool) -> float:
     return float(np.abs(ratio.imag).max() / _COMPLEX_STEP)
 
 
-def linearised(solution: RadialSolution, theta: Array, curvature: int) -> tuple[Array, Array]:
+@checked
+def linearised(solution: RadialSolution, theta: Row, curvature: int) -> tuple[Array, Array]:
     """Return A and F of u_t + A u_theta + F u = 0, u = (sigma1, psi1), straight from (2.8), (2.9).
 
     The equations of motion are differentiated by complex steps, exact to rounding.
@@ -201,13 +216,17 @@ def _momentum(solution: RadialSolution, k: int, theta: Array, state: Complex) ->
     by_theta = _rate(law, s, sigma, psi, sigma_theta, psi_theta)
     cot = 1 / np.tan(theta)
     radial = (
-        at.rr + by_t.rr + by_theta.rt
-        + (1 + k) * at.rr - at.tt + k * (cot * at.rt - at.pp) + np.cos(theta)
-    )  # fmt: skip
+        at.rr
+        + by_t.rr
+        + by_theta.rt
+        + (1 + k) * at.rr
+        - at.tt
+        + k * (cot * at.rt - at.pp)
+        + np.cos(theta)
+    )
     angular = (
-        at.rt + by_t.rt + by_theta.tt
-        + (2 + k) * at.rt + k * cot * (at.tt - at.pp) - np.sin(theta)
-    )  # fmt: skip
+        at.rt + by_t.rt + by_theta.tt + (2 + k) * at.rt + k * cot * (at.tt - at.pp) - np.sin(theta)
+    )
     return np.array([radial, angular])
 
 
@@ -244,7 +263,12 @@ class FieldCheck:
     coupling: float
     psi_max: float
 
+    __repr__ = brief(
+        "yield_residual", "hoop_residual", "wall_mu", "exponent", "coupling", "psi_max deg"
+    )
 
+
+@checked
 def check_field(solution: RadialSolution) -> FieldCheck:
     """Hold a radial field against (2.4)-(2.6), (2.11)-(2.15) and (3.1)-(3.5)."""
     law, s = solution.hopper.material, solution.hopper.s

@@ -10,13 +10,18 @@ from math import acos, asin, pi, sqrt
 import numpy as np
 from scipy.optimize import brentq
 
+from hopper.arguments import Fraction, Row, checked
 from hopper.arrays import Array
+from hopper.brief import brief
+from hopper.errors import InvalidParameterError
 from hopper.evidence import motion
 from hopper.radial.solution import RadialSolution
+from hopper.stability.tilted import require_linear
 from hopper.yield_conditions import MOHR_COULOMB, YieldCondition
 
 
-def radial_matrix(law: YieldCondition, s: float, sigma: float, psi: float) -> Array:
+@checked
+def radial_matrix(law: YieldCondition, s: Fraction, sigma: float, psi: float) -> Array:
     """Return A of the radial equations A (sigma, psi)' = F, (3.3), shape (2, 2)."""
     c2, s2 = np.cos(2 * psi), np.sin(2 * psi)
     b = 1.0 if law == MOHR_COULOMB else 1 / sqrt(3)
@@ -25,14 +30,16 @@ def radial_matrix(law: YieldCondition, s: float, sigma: float, psi: float) -> Ar
     )
 
 
-def nonsingular_below(law: YieldCondition, s: float) -> float:
+@checked
+def nonsingular_below(law: YieldCondition, s: Fraction) -> float:
     """Return the psi below which the paper says that A of (3.3) is nonsingular."""
     if law == MOHR_COULOMB:
         return pi / 4 + asin(s) / 2
     return pi / 2 - acos(s / sqrt(3)) / 2
 
 
-def first_singular_angle(law: YieldCondition, s: float) -> float:
+@checked
+def first_singular_angle(law: YieldCondition, s: Fraction) -> float:
     """Return the least psi > 0 at which the determinant of :func:`radial_matrix` vanishes."""
 
     def determinant(psi: float) -> float:
@@ -44,8 +51,10 @@ def first_singular_angle(law: YieldCondition, s: float) -> float:
     return float(brentq(determinant, grid[first], grid[first + 1], xtol=1e-15))
 
 
-def linearised(solution: RadialSolution, theta: Array) -> tuple[Array, Array, Array]:
+@checked
+def linearised(solution: RadialSolution, theta: Row) -> tuple[Array, Array, Array]:
     """Return A, B and C of (4.1) at ``theta`` (shape (n,)), each of shape (n, 2, 2)."""
+    require_linear(solution)
     s = solution.hopper.s
     sigma, psi, dsigma, dpsi = solution.fields(theta)
     c2, s2, cot = np.cos(2 * psi), np.sin(2 * psi), 1 / np.tan(theta)
@@ -68,11 +77,7 @@ def linearised(solution: RadialSolution, theta: Array) -> tuple[Array, Array, Ar
         -(1 + s) * (s2 + (1 - c2) * cot) / 2,
         2 * sigma * (q - s2 * cot),
     ]
-    return (
-        _entries(a, 2 * sigma * s * q),
-        _entries(b, 2 * sigma * q),
-        _entries(c, 2 * sigma * q),
-    )
+    return (_entries(a, 2 * sigma * s * q), _entries(b, 2 * sigma * q), _entries(c, 2 * sigma * q))
 
 
 def _entries(numerators: Sequence[Array | float], denominator: Array) -> Array:
@@ -90,12 +95,17 @@ class Comparison:
     ratio: Array
     spread: Array
 
+    __repr__ = brief("ratio", "spread")
 
+
+@checked
 def compare_linearised(solution: RadialSolution, points: int) -> Comparison:
     """Hold (4.1) as printed against the equations of motion, differentiated numerically.
 
     At ``points`` angles between the axis and the wall, excluded and included.
     """
+    if points < 1:
+        raise InvalidParameterError(f"points = {points}: give at least 1")
     theta = solution.hopper.half_angle * np.arange(1, points + 1) / points
     a, b = motion.linearised(solution, theta, curvature=0)
     _, f = motion.linearised(solution, theta, curvature=1)

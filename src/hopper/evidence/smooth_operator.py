@@ -5,23 +5,35 @@ The paper reduces it to one equation for omega, (4.4) and (4.5); here it is solv
 """
 
 from dataclasses import dataclass
-from math import pi
+from math import degrees, pi
 
 import numpy as np
 from scipy.optimize import brentq, linear_sum_assignment
 from scipy.special import hyp1f1
 
+from hopper.arguments import Radians, Row, checked
 from hopper.arrays import Array, Complex
+from hopper.brief import brief
+from hopper.errors import InvalidParameterError
 from hopper.problem import Geometry, Hopper
 from hopper.spectral import chebyshev
 from hopper.stability import smooth_wall
+from hopper.stability.tilted import require_mohr_coulomb
+from hopper.values import require_angle
+
+# Kummer series of more take long, and lose all digits.
+_LARGEST_MU = 1e4
+# Its square is a divisor.
+_LEAST_HALF_ANGLE = 1e-100
 
 
+@checked
 def operator_matrix(hopper: Hopper, m: int) -> Array:
     """Return the matrix of (4.3) on a half grid of ``m`` nodes, shape (2 m - 1, 2 m - 1).
 
     Unknowns: sigma1, even, at all nodes and omega1, odd, at all but the wall; lambda U = M U.
     """
+    require_mohr_coulomb(hopper)
     s, k = hopper.s, hopper.curvature
     theta = hopper.half_angle * chebyshev.half_nodes(m)
     even, odd = (
@@ -50,7 +62,15 @@ class FormulaCheck:
     error: float
     missing: Complex
 
+    __repr__ = brief("error", "missing")
 
+    @property
+    def highest_missing(self) -> float:
+        """Largest real part of ``missing``, minus infinity if there is none."""
+        return float(self.missing.real.max(initial=-np.inf))
+
+
+@checked
 def check_formula(hopper: Hopper, count: int, m: int) -> FormulaCheck:
     """Compare the ``count`` lowest pairs with the matrix of ``m`` half-grid nodes.
 
@@ -70,7 +90,8 @@ def check_formula(hopper: Hopper, count: int, m: int) -> FormulaCheck:
     )
 
 
-def neutral_delta(geometry: Geometry, half_angle: float) -> float:
+@checked
+def neutral_delta(geometry: Geometry, half_angle: Radians) -> float:
     """Return the delta (radians) at which the first pair of (4.7) or (4.9) crosses Re = 0.
 
     A root of the eigenvalues themselves; `smooth_wall.neutral_delta` is the closed form.
@@ -82,7 +103,8 @@ def neutral_delta(geometry: Geometry, half_angle: float) -> float:
     return float(brentq(growth, 0.1, 1.2, xtol=1e-14))
 
 
-def crossing_delta(half_angle: float) -> float:
+@checked
+def crossing_delta(half_angle: Radians) -> float:
     """Return the delta (radians) at which the first pairs of wedge and cone have the same Re."""
 
     def gap(delta: float) -> float:
@@ -91,16 +113,23 @@ def crossing_delta(half_angle: float) -> float:
         )
         return float(wedge - cone)
 
+    if gap(0.1) * gap(1.2) > 0:
+        raise InvalidParameterError(
+            f"half_angle = {degrees(half_angle):.6g} deg is out of range: there is no crossing"
+        )
     return float(brentq(gap, 0.1, 1.2, xtol=1e-14))
 
 
 def _first_pair(geometry: Geometry, delta: float, half_angle: float) -> Complex:
+    if half_angle < _LEAST_HALF_ANGLE:
+        raise InvalidParameterError(f"half_angle = {half_angle:.3g} is too small to compute with")
     if geometry == "wedge":
         return smooth_wall.wedge_eigenvalues(delta, half_angle, 1)[0]
     return smooth_wall.cone_eigenvalues(delta, smooth_wall.cone_wavenumbers(half_angle, 1))
 
 
-def real_onset(half_angle: float) -> float:
+@checked
+def real_onset(half_angle: Radians) -> float:
     """Return the least delta (radians) at which (4.9) with the Bessel mu_1 has a real eigenvalue.
 
     By bisection on the eigenvalues; sin of it is what the paper calls f(theta_w).
@@ -116,7 +145,8 @@ def real_onset(half_angle: float) -> float:
     return high
 
 
-def real_eigenvalues(deltas: Array, half_angle: float, count: int) -> int:
+@checked
+def real_eigenvalues(deltas: Row, half_angle: Radians, count: int) -> int:
     """Return how many of the ``count`` lowest pairs of (4.9) are real at any of ``deltas``."""
     mu = smooth_wall.cone_wavenumbers(half_angle, count, "bessel")
     return sum(
@@ -124,11 +154,15 @@ def real_eigenvalues(deltas: Array, half_angle: float, count: int) -> int:
     )
 
 
-def kummer_residual(mu: float, half_angle: float, m: int) -> float:
+@checked
+def kummer_residual(mu: float, half_angle: Radians, m: int) -> float:
     """Return the residual of theta Phi(1 - 3 mu / 2, 2, theta**2 / 6) in (4.10).
 
     Largest over a half grid of ``m`` nodes, relative to the largest of the equation's terms.
     """
+    require_angle("half_angle", half_angle)
+    if not 0 <= mu <= _LARGEST_MU:
+        raise InvalidParameterError(f"mu = {mu} is out of range: use 0 <= mu <= {_LARGEST_MU:.0e}")
     theta = half_angle * chebyshev.half_nodes(m)
     even, odd = (
         chebyshev.half_differentiation_matrix(m, parity) / half_angle for parity in ("even", "odd")

@@ -6,41 +6,35 @@ the stress at the axis. The equations, divided by sigma, are regular in tau thro
 sigma_0 passes through infinity; the apex is an ordinary point between two nodes.
 
 All radial solutions of a hopper form a curve with one member for each tau.
-
-References
-----------
-.. [TT] T. W. Tee, L. N. Trefethen, A rational spectral collocation method with adaptively
-   transformed Chebyshev grid points, SIAM J. Sci. Comput. 28 (2006).
 """
 
 from dataclasses import dataclass, replace
-from math import isfinite
-from typing import Literal
+from math import inf, isfinite
+from sys import float_info
 
 import numpy as np
-from scipy.linalg.lapack import dgesv
 
+from hopper.arguments import Row, checked
 from hopper.arrays import Array
-from hopper.errors import ConvergenceError
+from hopper.brief import brief
 from hopper.problem import Hopper
-from hopper.radial.equations import normal_weight, residual_and_jacobian
-from hopper.radial.grid import Grid, half_grid
+from hopper.radial.equations import slopes
+from hopper.radial.grid import Grid, transfer
+from hopper.radial.steps import CLOSED, Unknown, closed_system, normal_weight, size_of, solved_by
 from hopper.spectral import chebyshev
 
-# Half-grid sizes; a solution on one is confirmed on the next.
-_SIZES = (12, 16, 24, 36, 54, 80, 120, 180)
 _NEWTON_STEPS = 25
-_TOLERANCE = 1e-12
-_ACCEPTABLE = 1e-6
-# Factor on the error that geometric convergence predicts; near the singular angle it is slower.
-_SAFETY = 20
+# Radians below the singular angle from which on the distance to a square root at the wall counts.
+FAR = 0.3
+# That distance over theta_w from which on psi_w grows up to the singular angle.
+_ROUGHEST = 1e-4
 
 
 @dataclass(frozen=True)
 class Closure:
     """What selects one member of the family: psi at the wall (radians), or tau."""
 
-    unknown: Literal["psi_wall", "tau"]
+    unknown: Unknown
     value: float
 
 
@@ -48,8 +42,8 @@ class Closure:
 class Member:
     """A solution on a grid: ``u`` = (log(sigma / sigma_0), psi, tau), ``tangent`` along the family.
 
-    ``error`` is an estimate of the error of u: absolute in log(sigma / sigma_0) and psi, relative
-    in tau where tau > 1.
+    ``error`` bounds that of u: absolute in log(sigma / sigma_0) and psi, relative in tau where
+    tau > 1. Of a member that is not resolved it is the first Newton step.
     """
 
     hopper: Hopper
@@ -58,6 +52,15 @@ class Member:
     u: Array
     tangent: Array
     error: float
+
+    __repr__ = brief(
+        "hopper.geometry",
+        "hopper.delta deg",
+        "hopper.half_angle deg",
+        "tau",
+        "psi_wall deg",
+        "error",
+    )
 
     @property
     def log_ratio(self) -> Array:
@@ -84,50 +87,94 @@ class Member:
         """D psi_w / d tau along the family; changes sign at a fold."""
         return float(self.tangent[-2] / self.tangent[-1])
 
+    @property
+    def slope(self) -> float:
+        """D psi_w / d log(tau) along the family."""
+        return self.psi_wall_by_tau * self.tau
+
+    @property
+    def rising(self) -> bool:
+        """Whether psi_w grows with tau; so it does up to where a wall is as rough as its material.
+
+        There the derivative of tau by psi_w vanishes, and its sign is rounding.
+        """
+        return self.psi_wall_by_tau > 0 or self.excess < _ROUGHEST
+
+    @property
+    def steepness(self) -> float:
+        """Change of u, measured as in ``error``, per change of the closure: psi_w, or log(tau)."""
+        scale = 1.0 if self.closure.unknown == "psi_wall" else max(abs(self.tau), 1.0)
+        return max(1.0, scale * size_of(self.tangent, self.u))
+
+    @property
+    def tail(self) -> float:
+        """Largest of the last Chebyshev coefficients."""
+        return tail(self.log_ratio, self.psi)
+
+    @property
+    def gap(self) -> Array:
+        """Radians by which psi stays below its singular angle at the nodes."""
+        return self.hopper.material.singular_angle(self.hopper.delta) - self.psi
+
+    @property
+    def excess(self) -> float:
+        """Distance from the wall to where psi becomes singular, over theta_w; inf where it is far.
+
+        psi ends there in a square root, as extrapolated from its slope at the wall.
+        """
+        gap = self.gap[-1]
+        if not 0 < gap < FAR:
+            return inf
+        theta = self.grid.theta[-1:]
+        sigma = np.exp(self.log_ratio[-1:]) / (self.tau or float_info.min)
+        steep = slopes(self.hopper, theta, sigma, self.psi[-1:])[1][0] * theta[0]
+        return float(gap / (2 * steep)) if steep > 0 else inf
+
+    @property
+    def kink(self) -> tuple[float, float]:
+        """Place and width, over theta_w, of the bend of psi below its singular angle."""
+        gap = self.gap
+        nearest = int(np.argmin(gap))
+        steepest = np.abs(self.grid.d_odd @ self.psi)[nearest // 2 :].max()
+        theta = self.grid.theta
+        return theta[nearest] / theta[-1], gap[nearest] / steepest / theta[-1]
+
+    @checked
     def on(self, grid: Grid) -> Array:
         """Return ``u`` interpolated to another grid, stretched where the half angles differ."""
-        if grid is self.grid:
-            return self.u
-        if grid.clustering == self.grid.clustering:
-            even = chebyshev.half_transfer_matrix(self.grid.size, grid.size, "even")
-            odd = chebyshev.half_transfer_matrix(self.grid.size, grid.size, "odd")
-        else:
-            theta = grid.theta * (self.grid.half_angle / grid.half_angle)
-            even = self.grid.interpolation(theta, "even")
-            odd = self.grid.interpolation(theta, "odd")
-        return np.concatenate([even @ self.log_ratio, odd @ self.psi, self.u[-1:]])
+        return moved(self.u, self.grid, grid)
+
+
+@checked
+def moved(u: Array, old: Grid, new: Grid) -> Array:
+    """Return unknowns, shape (..., 2 m + 1), interpolated from one grid to another."""
+    if old is new:
+        return u
+    m = old.size
+    even, odd = transfer(old, new, "even"), transfer(old, new, "odd")
+    return np.concatenate([u[..., :m] @ even.T, u[..., m:-1] @ odd.T, u[..., -1:]], axis=-1)
+
+
+@checked
+def tail(log_ratio: Row, psi: Row) -> float:
+    """Return the largest of the last Chebyshev coefficients: what their grid does not resolve."""
+    even = chebyshev.last_half_coefficients(log_ratio.size, "even", 2) @ log_ratio
+    odd = chebyshev.last_half_coefficients(psi.size, "odd", 2) @ psi
+    return float(max(np.abs(even).max(), np.abs(odd).max()))
 
 
 def _newton_step(hopper: Hopper, grid: Grid, closure: Closure, u: Array) -> tuple[Array, Array]:
     """Return the Newton correction, and the derivative of u by the closure's value."""
-    residual, jacobian = residual_and_jacobian(hopper, grid, u)
-    # log(sigma / sigma_0) = 0 on the axis replaces the angular equation at the wall: that equation
-    # is odd with one degree less, so one of its rows is redundant.
-    residual[-2] = grid.axis_row @ u[: grid.size]
-    jacobian[-2] = 0.0
-    jacobian[-2, : grid.size] = grid.axis_row
-    column = _column(closure)
-    residual[-1] = u[column] - closure.value
-    jacobian[-1, column] = 1.0
+    residual, jacobian = closed_system(hopper, grid, closure.unknown, u)
+    residual[-1] = u[CLOSED[closure.unknown]] - closure.value
     right = np.zeros((u.size, 2), order="F")
     right[:, 0] = -residual
     right[-1, 1] = 1.0
-    # LAPACK itself: at this size numpy's checks cost as much as the solution.
-    _, _, solved, info = dgesv(jacobian, right, overwrite_b=True)
-    if info:
-        solved[:] = np.nan
+    solved = solved_by(jacobian, right)
     return solved[:, 0], solved[:, 1]
 
 
-def _column(closure: Closure) -> int:
-    return -2 if closure.unknown == "psi_wall" else -1
-
-
-def _size(step: Array, u: Array) -> float:
-    """Size of a step: absolute in log(sigma) and psi, relative in tau where tau > 1."""
-    return max(float(np.abs(step[:-1]).max()), float(abs(step[-1])) / max(abs(u[-1]), 1.0))
-
-
+@checked
 def newton(
     hopper: Hopper, grid: Grid, closure: Closure, u: Array, last_step: float = 1e-7
 ) -> Member | None:
@@ -136,13 +183,13 @@ def newton(
     Convergence is quadratic: after a step of size ``last_step`` the error is of the order of its
     square, by default of rounding size. The member's ``error`` is the size of the first step.
     """
-    column = _column(closure)
+    column = CLOSED[closure.unknown]
     first = size = 0.0
     with np.errstate(over="ignore", invalid="ignore"):
         for iteration in range(_NEWTON_STEPS):
             previous = size
             step, tangent = _newton_step(hopper, grid, closure, u)
-            size = _size(step, u)
+            size = size_of(step, u)
             u = u + step
             # Linear, so met after one step but for rounding, which differs between processors.
             u[column] = closure.value
@@ -156,6 +203,7 @@ def newton(
     return None
 
 
+@checked
 def crude_start(hopper: Hopper, grid: Grid, psi_wall: float) -> Array:
     """Return linear psi, with tau and the curvature of log(sigma) that the apex then asks for."""
     k, s, law = hopper.curvature, hopper.s, hopper.material
@@ -168,71 +216,9 @@ def crude_start(hopper: Hopper, grid: Grid, psi_wall: float) -> Array:
     return np.concatenate([log_ratio, slope * grid.theta, [tau]])
 
 
-def refine(member: Member) -> Member:
-    """Solve on finer grids until the error is of rounding size.
-
-    The first Newton step on a finer grid is the error of the coarser one. Errors decay
-    geometrically with the number of points, so that of the finer grid is about this step to the
-    power of the ratio of their sizes.
-
-    Raises
-    ------
-    ConvergenceError
-        If the error on the finest grid exceeds 1e-6.
-    """
-    for size in _SIZES:
-        if size <= member.grid.size:
-            continue
-        grid = half_grid(size, member.hopper.half_angle, member.grid.clustering)
-        finer = newton(member.hopper, grid, member.closure, member.on(grid))
-        if finer is None:
-            break
-        stagnant = finer.error < 1e-9 and finer.error > member.error / 2
-        error = finer.error
-        if not stagnant:
-            error = min(error, _SAFETY * error ** (size / member.grid.size))
-        member = replace(finer, error=max(error, np.finfo(float).eps * size))
-        if member.error < _TOLERANCE or stagnant:
-            return member
-    if member.error < _ACCEPTABLE:
-        return member
-    raise ConvergenceError(
-        f"radial solution not resolved: {member.grid.size} half-grid points leave an error of "
-        f"{member.error:.1e}; psi is too close to its singular value, lower the wall friction"
-    )
-
-
-def solve(hopper: Hopper, closure: Closure, start: Member | None = None) -> Member | None:
-    """Solve from ``start`` (default: a crude guess) on a coarse grid and refine.
-
-    Returns None where that does not converge.
-    """
-    for size in _coarse_sizes(start):
-        grid = half_grid(size, hopper.half_angle)
-        if start is None:
-            u = crude_start(hopper, grid, closure.value)
-        else:
-            u = _predicted(start, closure).on(grid)
-        member = newton(hopper, grid, closure, u)
-        if member is not None:
-            try:
-                return refine(member)
-            except ConvergenceError:
-                # Too few points can have solutions of their own.
-                continue
-    return None
-
-
-def _coarse_sizes(start: Member | None) -> tuple[int, ...]:
-    """Return the grids to begin with: a neighbour needed the one after the first of them."""
-    if start is None or start.grid.size not in _SIZES:
-        return _SIZES[:3]
-    first = max(0, _SIZES.index(start.grid.size) - 1)
-    return _SIZES[first : first + 3]
-
-
-def _predicted(start: Member, closure: Closure) -> Member:
+@checked
+def predicted(start: Member, closure: Closure) -> Member:
     """Move along the tangent to where the closure holds to first order."""
-    column = _column(closure)
+    column = CLOSED[closure.unknown]
     step = (closure.value - start.u[column]) / start.tangent[column]
     return replace(start, u=start.u + step * start.tangent) if isfinite(step) else start

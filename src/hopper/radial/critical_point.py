@@ -6,21 +6,30 @@ point of a nozzle is. The limiting solution runs smoothly into one of them, what
 and leaves it along the unstable direction, with a kink.
 """
 
-from dataclasses import dataclass
-from math import degrees, log
+from dataclasses import dataclass, replace
+from math import log
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from hopper.arguments import checked
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.errors import ConvergenceError
 from hopper.problem import Hopper
-from hopper.radial.collocation import Closure, Member, newton
+from hopper.radial.collocation import Member, tail
 from hopper.radial.equations import flow, slopes
-from hopper.radial.grid import half_grid
+from hopper.radial.grid import Grid, Map, layer_clustering, mapped_grid, transfer
+from hopper.radial.steps import residual_and_jacobian
 
-_SIZES = (36, 54)
-_SECANT_STEPS = 40
+_SIZES = (54, 36)
+_NEWTON_STEPS = 15
+# Half angles to start from, relative to where psi of a member is closest to singular, the largest
+# relative distance of the saddle from there, and the largest log sigma and psi on the way.
+_STARTS = 0.8, 0.9, 0.95, 0.7, 0.97, 0.6, 0.99, 0.5
+_NEAR, _LARGEST = 0.6, 50.0
+# Last Chebyshev coefficients of a solution that is smooth.
+_SMOOTH = 1e-9
 _TOLERANCE = 1e-12
 _ACCEPTABLE = 1e-8
 # Distance from the saddle (radians) to which the unstable direction is followed: its error is of
@@ -38,6 +47,8 @@ class CriticalPoint:
     log_sigma: float
     tau: float
 
+    __repr__ = brief("theta deg", "log_sigma", "tau")
+
 
 @dataclass(frozen=True)
 class LimitingSolution:
@@ -47,74 +58,100 @@ class LimitingSolution:
     tau: float
     error_estimate: float
 
+    __repr__ = brief("psi_wall deg", "tau", "error_estimate deg")
 
-def limiting_solution(hopper: Hopper, start: Member) -> LimitingSolution | None:
-    """Return the solution that ends the family; None where psi becomes singular only at the wall.
 
-    ``start`` is a member of a narrower hopper of the same material whose psi at the wall is close
-    to the singular angle.
+@checked
+def limiting_solution(last: Member) -> LimitingSolution | None:
+    """Return the solution that ends the family; None where there is none inside the hopper.
+
+    ``last`` is a member whose psi comes close to the singular angle inside the hopper.
 
     Raises
     ------
     ConvergenceError
-        If the critical point is not resolved to 1e-8.
+        If the solution is not resolved from the critical point to the wall.
     """
-    coarse, fine = (critical_point(hopper, start, size) for size in _SIZES)
-    if coarse is None or fine is None:
+    found = critical_points(last)
+    if found is None:
         return None
-    psi_wall = _psi_wall(hopper, fine)
-    error = abs(psi_wall - _psi_wall(hopper, coarse)) + 10 * _RELATIVE
+    psi_wall, other = (_psi_wall(last.hopper, point) for point in found)
+    error = abs(psi_wall - other) + 10 * _RELATIVE
     if error > _ACCEPTABLE:
         raise ConvergenceError(f"end of the family not resolved: psi at the wall to {error:.1e}")
-    return LimitingSolution(psi_wall, fine.tau, error)
+    return LimitingSolution(psi_wall, found[0].tau, error)
 
 
-def critical_point(hopper: Hopper, start: Member, size: int) -> CriticalPoint | None:
-    """Return the saddle nearest to the axis, None if there is none inside the hopper.
+@checked
+def critical_points(last: Member) -> tuple[CriticalPoint, CriticalPoint] | None:
+    """Return the saddle where psi is closest to singular, on two grids; None if there is none.
 
-    In narrower hoppers psi can reach the singular angle at the wall. Widening one until the slopes
-    there are 0/0 leads to the saddle; the solution up to it is smooth, so that collocation on
-    ``size`` points of the half grid converges spectrally.
-
-    Raises
-    ------
-    ConvergenceError
-        If the iteration fails.
+    Up to it the limiting solution is smooth, so that collocation on the half grid of a hopper that
+    ends there converges spectrally. That its half angle is unknown makes up for the equation at
+    its wall that others leave out: with psi at its singular angle the two equations there ask for
+    slopes that are 0/0. ``last`` as in :func:`limiting_solution`.
     """
-    singular = Closure("psi_wall", hopper.material.singular_angle(hopper.delta))
+    hopper, nearest = last.hopper, last.kink[0] * last.hopper.half_angle
+    for place in _STARTS:
+        start = cut(last, place * nearest, _SIZES[0])
+        fine = _smooth_end(hopper, start.grid, start.u, nearest)
+        if fine is None:
+            continue
+        point, grid, u = fine
+        if point.theta >= hopper.half_angle:
+            return None
+        other = mapped_grid(_SIZES[1], point.theta, grid.map)
+        even, odd = transfer(grid, other, "even"), transfer(grid, other, "odd")
+        u = np.concatenate([even @ u[: grid.size], odd @ u[grid.size : -1], u[-1:]])
+        coarse = _smooth_end(hopper, other, u, nearest)
+        if coarse:
+            return point, coarse[0]
+    return None
 
-    def widened(angle: float, near: Member) -> tuple[float, Member]:
-        narrow = Hopper(hopper.geometry, hopper.delta, angle, hopper.material)
-        grid = half_grid(size, angle)
-        member = newton(narrow, grid, singular, near.on(grid))
-        if member is None:
-            raise ConvergenceError(
-                f"end of the family not resolved at theta = {degrees(angle):.6g} deg"
-            )
-        return float(flow(narrow, *_end(member))[2][0]), member
 
-    before = start.hopper.half_angle
-    at_before, member = widened(before, start)
-    angle = min(1.05 * before, hopper.half_angle)
-    for _ in range(_SECANT_STEPS):
-        excess, member = widened(angle, member)
-        following = angle - excess * (angle - before) / (excess - at_before)
-        if abs(following - angle) < _TOLERANCE:
-            theta, sigma, _ = _end(member)
-            return CriticalPoint(float(theta[0]), log(sigma[0]), member.tau)
-        # The excess decreases and is convex: a secant from the left does not overshoot a zero.
-        if not angle < following < hopper.half_angle and excess > 0:
-            if angle == hopper.half_angle:
+def _smooth_end(
+    hopper: Hopper, grid: Grid, u: Array, nearest: float
+) -> tuple[CriticalPoint, Grid, Array] | None:
+    """Solve for a critical point from u on a grid; None unless it is smooth and near."""
+    for _ in range(_NEWTON_STEPS):
+        step = _newton_step(hopper, grid, u)
+        u, angle = u + step[:-1], grid.half_angle + float(step[-1])
+        if not (abs(angle / nearest - 1) < _NEAR and np.abs(u[:-1]).max() < _LARGEST):
+            return None
+        grid = mapped_grid(grid.size, angle, grid.map)
+        if np.abs(step[:-2]).max() < _TOLERANCE:
+            # Solutions that are singular there are not resolved.
+            if tail(u[: grid.size], u[grid.size : -1]) > _SMOOTH:
                 return None
-            following = hopper.half_angle
-        before, at_before, angle = angle, excess, following
-    raise ConvergenceError(f"end of the family not resolved near theta = {degrees(angle):.6g} deg")
+            log_sigma = float(u[grid.size - 1]) - log(u[-1])
+            return CriticalPoint(angle, log_sigma, float(u[-1])), grid, u
+    return None
 
 
-def _end(member: Member) -> tuple[Array, Array, Array]:
-    """Return (theta, sigma, psi) at the wall, each of shape (1,)."""
-    sigma = np.exp(member.log_ratio[-1:]) / member.tau
-    return member.grid.theta[-1:], sigma, member.psi[-1:]
+def _newton_step(hopper: Hopper, grid: Grid, u: Array) -> Array:
+    """Return the Newton correction of u and the half angle, shape (2 m + 2,)."""
+    singular = hopper.material.singular_angle(hopper.delta)
+    residual, jacobian = residual_and_jacobian(hopper, grid, u)
+    change = _DIFFERENCE * grid.half_angle
+    wider = mapped_grid(grid.size, grid.half_angle + change, grid.map)
+    by_angle = (residual_and_jacobian(hopper, wider, u)[0] - residual) / change
+    system = np.zeros((u.size + 1, u.size + 1))
+    system[:-1, :-1], system[:-1, -1] = jacobian, by_angle
+    system[-2, : grid.size] = grid.axis_row
+    system[-1, -3] = 1.0
+    right = np.append(residual, u[-2] - singular)
+    right[-2] = grid.axis_row @ u[: grid.size]
+    return -np.linalg.solve(system, right)
+
+
+@checked
+def cut(member: Member, angle: float, size: int = 54) -> Member:
+    """Return the part of a member inside a narrower hopper."""
+    by = Map(layer_clustering(member.hopper, member.tau))
+    grid = mapped_grid(size, angle, by)
+    even, odd = (member.grid.interpolation(grid.theta, parity) for parity in ("even", "odd"))
+    u = np.concatenate([even @ member.log_ratio, odd @ member.psi, member.u[-1:]])
+    return replace(member, hopper=replace(member.hopper, half_angle=angle), grid=grid, u=u)
 
 
 def _psi_wall(hopper: Hopper, point: CriticalPoint) -> float:
@@ -124,13 +161,14 @@ def _psi_wall(hopper: Hopper, point: CriticalPoint) -> float:
     left = np.array([point.log_sigma, psi]) + _OFFSET * direction
 
     def slope(theta: float, state: Array) -> Array:
+        if not np.isfinite(state).all():  # of a step too long, which is then refused
+            return np.full(2, np.nan)
         angle, sigma = np.array([theta]), np.exp(state[:1])
         return np.concatenate(slopes(hopper, angle, sigma, state[1:]))
 
-    reached = solve_ivp(
-        slope, (point.theta + _OFFSET, hopper.half_angle), left, "DOP853",
-        rtol=_RELATIVE, atol=_ABSOLUTE,
-    )  # fmt: skip
+    interval = (point.theta + _OFFSET, hopper.half_angle)
+    with np.errstate(all="ignore"):  # a step too far is rejected
+        reached = solve_ivp(slope, interval, left, "DOP853", rtol=_RELATIVE, atol=_ABSOLUTE)
     if not reached.success:
         raise ConvergenceError(f"limiting solution not resolved: {reached.message}")
     return float(reached.y[1, -1])

@@ -9,11 +9,12 @@ that Jenike's charts draw between mass flow and funnel flow.
 from math import acos, asin, degrees, pi
 
 import numpy as np
-from numpy.typing import ArrayLike
 
+from hopper.arguments import Radians, RealLike, checked
 from hopper.arrays import Array
 from hopper.errors import InvalidParameterError
-from hopper.problem import Hopper, as_angles, require_angle
+from hopper.problem import Hopper, as_angles
+from hopper.values import require_angle
 from hopper.yield_conditions import MOHR_COULOMB
 
 _LEAST_SIN_DELTA = 1 / 3
@@ -33,7 +34,8 @@ def _apex_angle(hopper: Hopper) -> float:
     return (pi - acos((1 - hopper.s) / (2 * hopper.s))) / 2
 
 
-def limiting_fields(hopper: Hopper, theta: ArrayLike) -> tuple[Array, Array]:
+@checked
+def limiting_fields(hopper: Hopper, theta: RealLike) -> tuple[Array, Array]:
     """Return sigma (units of rho g r) and psi (radians) of the limit at ``theta`` > 0 (radians).
 
     Raises
@@ -50,6 +52,7 @@ def limiting_fields(hopper: Hopper, theta: ArrayLike) -> tuple[Array, Array]:
     return np.sin(theta) / (2 * hopper.s * np.sin(2 * gamma)), gamma - theta
 
 
+@checked
 def limiting_wall_angle(hopper: Hopper) -> float:
     """Return psi(theta_w) of the limit, radians; negative where the limit needs no friction.
 
@@ -61,6 +64,7 @@ def limiting_wall_angle(hopper: Hopper) -> float:
     return _apex_angle(hopper) - hopper.half_angle
 
 
+@checked
 def mass_flow_friction_angle(hopper: Hopper) -> float:
     """Return the wall friction angle phi (radians) of the mass-flow limit, at least 0.
 
@@ -72,7 +76,8 @@ def mass_flow_friction_angle(hopper: Hopper) -> float:
     return max(0.0, hopper.material.friction_angle(hopper.delta, limiting_wall_angle(hopper)))
 
 
-def mass_flow_half_angle(hopper: Hopper, friction_angle: float) -> float:
+@checked
+def mass_flow_half_angle(hopper: Hopper, friction_angle: Radians) -> float:
     """Return the half angle (radians) up to which a wall of friction ``friction_angle`` slips.
 
     Raises

@@ -2,28 +2,34 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import degrees
-from typing import Literal
+from math import degrees, tan
+from typing import Literal, get_args
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
+from hopper.arguments import Positive, Radians, RealLike, checked
 from hopper.arrays import Array
+from hopper.brief import apart, brief
 from hopper.errors import (
     ConvergenceError,
     InvalidParameterError,
     NonPositiveStressError,
     NoRadialSolutionError,
+    not_resolved_because,
 )
-from hopper.problem import Hopper, as_angles, is_real, require_angle
+from hopper.problem import Hopper, as_angles
 from hopper.radial.collocation import Member
-from hopper.radial.equations import normal_weight, slopes
+from hopper.radial.equations import slopes
+from hopper.radial.fields import stacked_fields
 from hopper.radial.friction_limit import friction_limit
 from hopper.radial.grid import Grid
 from hopper.radial.members import member_with_tau, members_with_wall_angle, physical_member
+from hopper.radial.steps import normal_weight
+from hopper.values import require_angle
 
-Branch = Literal["physical", "second"]
+Branch = Literal["physical", "second", "third"]
+_BRANCHES: tuple[Branch, ...] = get_args(Branch)
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,8 +41,8 @@ class RadialSolution:
     hopper : Hopper
     friction_angle : float
         Wall friction angle phi, radians.
-    branch : "physical" or "second"
-        Part of the family: before or beyond the fold.
+    branch : "physical", "second" or "third"
+        Part of the family: before the fold, beyond it, beyond a second one.
     member : Member
         The discrete solution on its collocation grid.
     """
@@ -45,6 +51,16 @@ class RadialSolution:
     friction_angle: float
     branch: Branch
     member: Member
+
+    __repr__ = brief(
+        "hopper.geometry",
+        "hopper.delta deg",
+        "hopper.half_angle deg",
+        "friction_angle deg",
+        "branch",
+        "sigma_axis",
+        "error_estimate",
+    )
 
     @property
     def theta(self) -> Array:
@@ -78,14 +94,20 @@ class RadialSolution:
 
     @property
     def error_estimate(self) -> float:
-        """Of log(sigma / sigma_0), psi and log sigma_0, from the convergence of the mesh."""
+        """Bound on the errors of log(sigma / sigma_0) and psi at any theta, and of log sigma_0.
+
+        From the convergence of the mesh, and from rounding as the wall's friction magnifies it:
+        near the largest friction psi(theta_w) hardly determines the solution.
+        """
         return self.member.error
 
-    def psi_at(self, theta: ArrayLike) -> Array:
+    @checked
+    def psi_at(self, theta: RealLike) -> Array:
         """Return psi (radians) at ``theta`` (radians, |theta| <= theta_w), shape (n,)."""
         return self.member.grid.interpolation(self._inside(theta), "odd") @ self.psi
 
-    def fields(self, theta: ArrayLike) -> tuple[Array, Array, Array, Array]:
+    @checked
+    def fields(self, theta: RealLike) -> tuple[Array, Array, Array, Array]:
         """Return sigma, psi, d sigma/d theta and d psi/d theta at ``theta``, each of shape (n,).
 
         Slopes come from the differential equations, so they carry no differentiation error.
@@ -105,13 +127,11 @@ class RadialSolution:
         psi = self.member.grid.interpolation(theta, "odd") @ self.psi
         return self._with_slopes(theta, log_ratio, psi)
 
+    @checked
     def fields_on(self, grids: Sequence[Grid]) -> tuple[Array, Array, Array, Array]:
         """Return :meth:`fields` at the points of half grids, one after the other, shape (n,)."""
-        on = [(grid.size, self.member.on(grid)) for grid in grids]
-        theta = np.concatenate([grid.theta for grid in grids])
-        log_ratio = np.concatenate([u[:m] for m, u in on])
-        psi = np.concatenate([u[m:-1] for m, u in on])
-        return self._with_slopes(theta, log_ratio, psi)
+        sigma, psi, dsigma, dpsi = stacked_fields([self.member], grids)
+        return sigma[0], psi[0], dsigma[0], dpsi[0]
 
     def _with_slopes(
         self, theta: Array, log_ratio: Array, psi: Array
@@ -134,7 +154,15 @@ class RadialSolution:
             return float(angle), float(self.psi_at(angle)[0])
         return float(theta[peak]), float(self.psi_at(theta[peak])[0])
 
-    def _inside(self, theta: ArrayLike) -> Array:
+    @checked
+    def first_angle_with(self, psi: float) -> float | None:
+        """Return the least theta (radians) at which psi has the given value, None if nowhere."""
+        theta, largest = self.psi_maximum()
+        if not 0 <= psi <= largest:
+            return None
+        return float(brentq(lambda angle: float(self.psi_at(angle)[0]) - psi, 0.0, theta))
+
+    def _inside(self, theta: RealLike) -> Array:
         theta = as_angles("theta", theta)
         if not np.all(np.abs(theta) <= self.hopper.half_angle * (1 + 1e-12)):
             raise InvalidParameterError(
@@ -144,9 +172,10 @@ class RadialSolution:
         return theta
 
 
+@checked
 def solve_radial(
     hopper: Hopper,
-    friction_angle: float,
+    friction_angle: Radians,
     branch: Branch = "physical",
     start: RadialSolution | None = None,
 ) -> RadialSolution:
@@ -158,8 +187,8 @@ def solve_radial(
         Geometry and material.
     friction_angle : float
         Wall friction angle phi = arctan(mu), radians, in [0, pi/2).
-    branch : "physical" or "second"
-        The branch connected to the smooth wall, or the one beyond the fold.
+    branch : "physical", "second" or "third"
+        The branch connected to the smooth wall, or one beyond the fold.
     start : RadialSolution, optional
         A neighbour in a sweep; saves Newton steps.
 
@@ -177,20 +206,24 @@ def solve_radial(
         If the fields cannot be resolved.
     """
     require_angle("friction_angle", friction_angle, zero_allowed=True)
-    if branch not in ("physical", "second"):
-        raise InvalidParameterError(f"branch = {branch!r} is unknown: use physical or second")
-    psi_wall = hopper.material.wall_angle(hopper.delta, friction_angle)
-    if branch == "second":
-        member = _on_second_branch(hopper, friction_angle, psi_wall)
-    else:
+    if branch == "physical":
         member = _on_physical_branch(hopper, friction_angle, start)
-    return RadialSolution(hopper, friction_angle, branch, member)
+        return RadialSolution(hopper, friction_angle, branch, member)
+    found = _all_branches(hopper, friction_angle)
+    if len(found) <= (index := _BRANCHES.index(branch)):
+        raise NoRadialSolutionError(
+            f"phi = {degrees(friction_angle):.6g} deg has no {branch} solution: it exists only "
+            "near the fold of a cone; use branch = physical",
+            friction_limit(hopper).friction_angle,
+        )
+    return found[index]
 
 
-def radial_solutions(hopper: Hopper, friction_angle: float) -> list[RadialSolution]:
-    """Return every radial stress field for the given wall friction (radians): one, or two.
+@checked
+def radial_solutions(hopper: Hopper, friction_angle: Radians) -> list[RadialSolution]:
+    """Return every radial stress field for the given wall friction (radians): one to three.
 
-    The physical one first.
+    The physical one first, then by falling stress on the axis.
 
     Raises
     ------
@@ -198,13 +231,21 @@ def radial_solutions(hopper: Hopper, friction_angle: float) -> list[RadialSoluti
         As :func:`solve_radial` for the physical branch.
     """
     physical = solve_radial(hopper, friction_angle)
-    try:
-        return [physical, solve_radial(hopper, friction_angle, "second")]
-    except NoRadialSolutionError:
-        return [physical]
+    return [physical, *_all_branches(hopper, friction_angle)[1:]]
 
 
-def solve_radial_family(hopper: Hopper, sigma_axis: float) -> RadialSolution:
+def _all_branches(hopper: Hopper, friction_angle: float) -> list[RadialSolution]:
+    psi_wall = hopper.material.wall_angle(hopper.delta, friction_angle)
+    _require_below_limit(hopper, friction_angle)
+    members = members_with_wall_angle(hopper, psi_wall)
+    return [
+        RadialSolution(hopper, friction_angle, branch, member)
+        for branch, member in zip(_BRANCHES, members, strict=False)
+    ]
+
+
+@checked
+def solve_radial_family(hopper: Hopper, sigma_axis: Positive) -> RadialSolution:
     """Return the member of the family with average stress ``sigma_axis`` on the axis.
 
     Parameters
@@ -223,15 +264,14 @@ def solve_radial_family(hopper: Hopper, sigma_axis: float) -> RadialSolution:
     ConvergenceError
         If the fields cannot be resolved.
     """
-    if not (is_real(sigma_axis) and 0 < sigma_axis < np.inf):
-        raise InvalidParameterError(f"sigma_axis = {sigma_axis!r} must be a positive number")
     return solution_of(member_with_tau(hopper, 1 / sigma_axis))
 
 
+@checked
 def solution_of(member: Member) -> RadialSolution:
     """Return the radial solution of a member of the family, with the friction of its wall."""
     phi = member.hopper.material.friction_angle(member.hopper.delta, member.psi_wall)
-    branch: Branch = "physical" if member.psi_wall_by_tau > 0 else "second"
+    branch: Branch = "physical" if member.rising else "second"
     return RadialSolution(member.hopper, phi, branch, member)
 
 
@@ -244,24 +284,12 @@ def _on_physical_branch(
     if member is None:
         _require_below_limit(hopper, friction_angle)
         raise ConvergenceError(
-            f"radial solution not resolved at phi = {degrees(friction_angle):.6g} deg: psi is too "
-            "close to its singular value; lower the wall friction"
+            f"radial solution not resolved at phi = {degrees(friction_angle):.6g} deg: "
+            f"{not_resolved_because(friction_angle)}"
         )
     if member.tau <= 0:
         raise NonPositiveStressError(_non_positive_stress(hopper, friction_angle))
     return member
-
-
-def _on_second_branch(hopper: Hopper, friction_angle: float, psi_wall: float) -> Member:
-    _require_below_limit(hopper, friction_angle)
-    found = members_with_wall_angle(hopper, psi_wall)
-    if len(found) < 2:
-        raise NoRadialSolutionError(
-            f"phi = {degrees(friction_angle):.6g} deg has no second solution: it exists only "
-            "between the mass-flow limit and the fold of a cone; use branch = physical",
-            friction_limit(hopper).friction_angle,
-        )
-    return found[1]
 
 
 def _require_below_limit(hopper: Hopper, friction_angle: float) -> None:
@@ -274,11 +302,11 @@ def _require_below_limit(hopper: Hopper, friction_angle: float) -> None:
         "interior": "psi reaches its singular angle inside the hopper there",
         "axis": "the stress on the axis vanishes there",
     }[limit.end]
+    phi, largest = apart(degrees(friction_angle), degrees(limit.friction_angle))
+    mu, largest_mu = apart(tan(friction_angle), tan(limit.friction_angle))
     raise NoRadialSolutionError(
-        f"no radial solution at phi = {degrees(friction_angle):.6g} deg "
-        f"(mu = {np.tan(friction_angle):.6g}): the largest friction that has one is "
-        f"phi = {degrees(limit.friction_angle):.6g} deg "
-        f"(mu = {np.tan(limit.friction_angle):.6g}), {reason}; lower the wall friction",
+        f"no radial solution at phi = {phi} deg (mu = {mu}): the largest friction that has one is "
+        f"phi = {largest} deg (mu = {largest_mu}), {reason}; lower the wall friction",
         limit.friction_angle,
     )
 

@@ -4,10 +4,10 @@ from dataclasses import dataclass
 from math import degrees, pi, sqrt
 
 import numpy as np
-from numpy.typing import ArrayLike
-from scipy.optimize import brentq
 
+from hopper.arguments import RealLike, checked
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.errors import ConvergenceError, InvalidParameterError, SingularVelocityError
 from hopper.problem import as_angles
 from hopper.radial.solution import RadialSolution
@@ -29,7 +29,10 @@ class VelocityField:
     log_u: Array
     error_estimate: float
 
-    def at(self, theta: ArrayLike) -> Array:
+    __repr__ = brief("half_angle deg", "wall", "error_estimate")
+
+    @checked
+    def at(self, theta: RealLike) -> Array:
         """Return u at ``theta`` (radians, |theta| <= theta_w), shape (n,).
 
         Raises
@@ -51,12 +54,14 @@ class VelocityField:
         return float(np.exp(self.log_u[-1]))
 
 
+@checked
 def decay_exponent(solution: RadialSolution) -> float:
     """Return c in u' = -c u tan 2psi: 3 (cone), 2 (wedge), sqrt(12) (von Mises)."""
     hopper = solution.hopper
     return sqrt(12) if hopper.material == VON_MISES else 2.0 + hopper.curvature
 
 
+@checked
 def solve_velocity(solution: RadialSolution) -> VelocityField:
     """Integrate the velocity equation over a radial stress field.
 
@@ -67,9 +72,8 @@ def solve_velocity(solution: RadialSolution) -> VelocityField:
     ConvergenceError
         If log u is not resolved to 1e-6.
     """
-    angle, largest = solution.psi_maximum()
-    if largest >= pi / 4:
-        theta = brentq(lambda t: float(solution.psi_at(t)[0]) - pi / 4, 0.0, angle)
+    theta = solution.first_angle_with(pi / 4)
+    if theta is not None:
         raise SingularVelocityError(
             f"velocity is singular: psi reaches pi/4 at theta = {degrees(theta):.6g} deg; "
             "lower the wall friction to get a velocity field",

@@ -1,8 +1,9 @@
 """Chebyshev collocation on [-1, 1]: nodes, differentiation, quadrature, interpolation, parity.
 
 All grids are second-kind (Gauss-Lobatto) points in increasing order. A *half grid* of ``m``
-points is the positive half of the ``2 m`` points: it carries a function of known parity and has
-no node at 0. Arrays returned by cached functions are read-only.
+points is the positive half of ``2 m`` points: it carries a function of known parity and has no node
+at 0. A *centred* one is the half of ``2 m - 1`` points with the node at 0. Arrays returned by
+cached functions are read-only.
 
 References
 ----------
@@ -16,15 +17,42 @@ References
 """
 
 from functools import lru_cache
-from typing import Literal
+from typing import Annotated, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.fft import dct
 
+from hopper.arguments import RealLike, RealRow, checked
 from hopper.arrays import Array
+from hopper.errors import InvalidParameterError
+from hopper.values import number_array, require_row
 
 Parity = Literal["even", "odd"]
+_Values = Annotated[Array, number_array]  # or complex ones, as eigenvectors are
+# Points of a grid: a full matrix of more has 2 GB.
+_MOST_POINTS = 2**14
+# Distance from a node that is none.
+_AT_NODE = 1e-150
+
+
+def _require_points(name: str, count: int, least: int, most: int) -> None:
+    if not least <= count <= most:
+        raise InvalidParameterError(
+            f"{name} = {count} points is out of range: give {least} to {most}"
+        )
+
+
+def _full_size(m: int, centred: bool) -> int:
+    """Return the number of points of the grid that a half grid of ``m`` points is half of."""
+    _require_points("m", m, 1 + centred, _MOST_POINTS // 2)
+    return 2 * m - centred
+
+
+def _require_rows(values: Array, least: int) -> None:
+    if values.ndim < 1 or len(values) < least:
+        raise InvalidParameterError(
+            f"values has shape {values.shape}: give values at {least} points at least"
+        )
 
 
 def _frozen(array: Array) -> Array:
@@ -32,18 +60,33 @@ def _frozen(array: Array) -> Array:
     return array
 
 
+@checked
 @lru_cache(maxsize=64)
 def nodes(n: int) -> Array:
     """Return the ``n`` second-kind points sin(pi (2j - n + 1) / (2n - 2)), shape (n,).
 
     The sine form is exactly odd about the middle [WR].
+
+    Raises
+    ------
+    InvalidParameterError
+        If there are fewer than 2 points or more than 16384.
     """
+    _require_points("n", n, 2, _MOST_POINTS)
     return _frozen(np.sin(np.pi * np.arange(1 - n, n, 2) / (2 * (n - 1))))
 
 
+@checked
 @lru_cache(maxsize=32)
 def differentiation_matrix(n: int) -> Array:
-    """Return the matrix, shape (n, n), that maps nodal values to the derivative's nodal values."""
+    """Return the matrix, shape (n, n), that maps nodal values to the derivative's nodal values.
+
+    Raises
+    ------
+    InvalidParameterError
+        If there are fewer than 2 points or more than 16384.
+    """
+    _require_points("n", n, 2, _MOST_POINTS)
     angle = np.pi * np.arange(n) / (2 * (n - 1))
     # Differences of nodes as products of sines, free of cancellation [WR].
     difference = 2 * np.sin(angle[:, None] + angle) * np.sin(angle[:, None] - angle)
@@ -59,9 +102,17 @@ def differentiation_matrix(n: int) -> Array:
     return _frozen(matrix)
 
 
+@checked
 @lru_cache(maxsize=64)
 def clenshaw_curtis_weights(n: int) -> Array:
-    """Return the quadrature weights, shape (n,), exact for polynomials of degree n - 1 [Wa]."""
+    """Return the quadrature weights, shape (n,), exact for polynomials of degree n - 1 [Wa].
+
+    Raises
+    ------
+    InvalidParameterError
+        If there are fewer than 2 points or more than 16384.
+    """
+    _require_points("n", n, 2, _MOST_POINTS)
     even = np.arange(0, n, 2)
     moments = np.zeros(n)
     moments[::2] = 2.0 / (1.0 - even**2)
@@ -76,67 +127,138 @@ def _barycentric_weights(n: int) -> Array:
     return weights
 
 
-def interpolation_matrix(n: int, x: ArrayLike) -> Array:
-    """Return the matrix, shape (len(x), n), from nodal values to values at ``x`` [BTb]."""
-    gap = np.atleast_1d(np.asarray(x, dtype=float))[:, None] - nodes(n)
-    row, column = np.nonzero(gap == 0)
+@checked
+def interpolation_matrix(n: int, x: RealRow) -> Array:
+    """Return the matrix, shape (len(x), n), from nodal values to values at ``x`` [BTb].
+
+    Raises
+    ------
+    InvalidParameterError
+        If there are fewer than 2 points or more than 16384,
+        or x is not a row of numbers near [-1, 1].
+    """
+    gap = np.asarray(x)[:, None] - nodes(n)
+    row, column = np.nonzero(np.abs(gap) < _AT_NODE)
     gap[row, column] = 1.0
     matrix = _barycentric_weights(n) / gap
-    matrix /= matrix.sum(axis=1, keepdims=True)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        matrix /= matrix.sum(axis=1, keepdims=True)
+    if not np.isfinite(matrix).all():
+        raise InvalidParameterError("x lies too far outside: keep it near [-1, 1]")
     matrix[row] = 0.0
     matrix[row, column] = 1.0
     return matrix
 
 
-def coefficients(values: Array) -> Array:
-    """Return the Chebyshev coefficients of nodal ``values`` along the first axis, same shape."""
+@checked
+def coefficients(values: _Values) -> Array:
+    """Return the Chebyshev coefficients of nodal ``values`` along the first axis, same shape.
+
+    Raises
+    ------
+    InvalidParameterError
+        If there are fewer than 2 values.
+    """
+    _require_rows(values, 2)
     n = len(values)
     result: Array = dct(values[::-1], type=1, axis=0) / (n - 1)
     result[[0, -1]] /= 2
     return result
 
 
+@checked
 @lru_cache(maxsize=64)
-def half_nodes(m: int) -> Array:
-    """Return the ``m`` positive points of the grid of ``2 m`` points, shape (m,), last one 1."""
-    return _frozen(nodes(2 * m)[m:].copy())
+def half_nodes(m: int, *, centred: bool = False) -> Array:
+    """Return the ``m`` points of a half grid, shape (m,): up to 1, from 0 if centred.
+
+    Raises
+    ------
+    InvalidParameterError
+        If there is no point, one only if centred, or there are more than 8192.
+    """
+    return _frozen(nodes(_full_size(m, centred))[-m:].copy())
 
 
-def _fold(matrix: Array, m: int, parity: Parity) -> Array:
-    """Restrict columns of a matrix on ``2 m`` values to the half grid of the given parity."""
+def _fold(matrix: Array, m: int, parity: Parity, centred: bool) -> Array:
+    """Restrict columns of a matrix on all values to the half grid of the given parity."""
     mirrored = matrix[:, m - 1 :: -1]
-    return matrix[:, m:] + mirrored if parity == "even" else matrix[:, m:] - mirrored
+    folded = matrix[:, -m:] + mirrored if parity == "even" else matrix[:, -m:] - mirrored
+    if centred:  # the point 0 mirrors itself
+        folded[:, 0] /= 2
+    return folded
 
 
-@lru_cache(maxsize=64)
-def half_differentiation_matrix(m: int, parity: Parity) -> Array:
+@checked
+@lru_cache(maxsize=128)
+def half_differentiation_matrix(m: int, parity: Parity, *, centred: bool = False) -> Array:
     """Return the (m, m) derivative on the half grid of functions of the given parity.
 
     The derivative has the other parity.
+
+    Raises
+    ------
+    InvalidParameterError
+        As :func:`half_nodes`, and if the parity is unknown.
     """
-    return _frozen(_fold(differentiation_matrix(2 * m)[m:], m, parity))
+    matrix = differentiation_matrix(_full_size(m, centred))[-m:]
+    return _frozen(_fold(matrix, m, parity, centred))
 
 
-def half_interpolation_matrix(m: int, x: ArrayLike, parity: Parity) -> Array:
-    """Return the matrix, shape (len(x), m), from half-grid values to values at ``x``."""
-    return _fold(interpolation_matrix(2 * m, x), m, parity)
+@checked
+def half_interpolation_matrix(
+    m: int, x: RealLike, parity: Parity, *, centred: bool = False
+) -> Array:
+    """Return the matrix, shape (len(x), m), from half-grid values to values at ``x``.
+
+    Raises
+    ------
+    InvalidParameterError
+        As :func:`half_nodes`, and if x is not a row of numbers near [-1, 1] or the parity is
+        unknown.
+    """
+    return _fold(interpolation_matrix(_full_size(m, centred), x), m, parity, centred)
 
 
-@lru_cache(maxsize=256)
-def half_transfer_matrix(old: int, new: int, parity: Parity) -> Array:
-    """Return the matrix, shape (new, old), from one half grid to another."""
-    return _frozen(half_interpolation_matrix(old, half_nodes(new), parity))
+@checked
+def half_coefficients(values: _Values, parity: Parity) -> Array:
+    """Return the ``m`` Chebyshev coefficients that parity leaves (T0, T2, ... or T1, T3, ...).
 
-
-def half_coefficients(values: Array, parity: Parity) -> Array:
-    """Return the ``m`` Chebyshev coefficients that parity leaves (T0, T2, ... or T1, T3, ...)."""
+    Raises
+    ------
+    InvalidParameterError
+        If there is no value, or the parity is unknown.
+    """
+    _require_rows(values, 1)
     mirrored = values[::-1] if parity == "even" else -values[::-1]
     return coefficients(np.concatenate([mirrored, values]))[0 if parity == "even" else 1 :: 2]
 
 
+@checked
+@lru_cache(maxsize=128)
+def last_half_coefficients(m: int, parity: Parity, count: int) -> Array:
+    """Return the matrix, shape (count, m), from half-grid values to the last coefficients.
+
+    Raises
+    ------
+    InvalidParameterError
+        As :func:`half_nodes`, and if the parity is unknown or count is not from 1 to m.
+    """
+    _full_size(m, centred=False)
+    if not 1 <= count <= m:
+        raise InvalidParameterError(f"count = {count} is out of range: give 1 to m = {m}")
+    return _frozen(half_coefficients(np.eye(m), parity)[-count:].copy())
+
+
+@checked
 def integrate_odd(values: Array) -> Array:
-    """Return the integral from 0 of an odd function on the half grid; even, shape (m,)."""
-    m = len(values)
+    """Return the integral from 0 of an odd function on the half grid; even, shape (m,).
+
+    Raises
+    ------
+    InvalidParameterError
+        If the values are not a row of numbers.
+    """
+    m = len(require_row("values", values))
     odd = half_coefficients(values, "odd")
     degree = 2 * np.arange(m) + 1
     even = np.zeros(m + 1)

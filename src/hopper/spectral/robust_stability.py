@@ -17,62 +17,66 @@ References
 """
 
 from collections.abc import Callable
-from math import inf
+from math import inf, isfinite, nan
 
 import numpy as np
 from scipy.linalg import eigvals
 from scipy.optimize import brentq
 
-from hopper.arrays import Numbers
+from hopper.arguments import AnyFloat, checked
+from hopper.arrays import Array, Numbers
 from hopper.errors import ConvergenceError, InvalidParameterError
-from hopper.spectral.pseudospectrum import smallest_singular_values
-from hopper.spectral.schur import SchurForm
+from hopper.spectral.lanczos import unit_sigma_min
+from hopper.spectral.pseudospectrum import FAR
+from hopper.spectral.scaling import represented, times_power
+from hopper.spectral.schur import EPS, SchurForm
 
-_EPS = float(np.finfo(float).eps)
 _STEPS = 60
 _TOLERANCE = 1e-10
-# Computed eigenvalues this close to a line or circle, relative to the matrix, may lie on it: a
-# double one is off by the square root of rounding.
-_ON_CURVE = 1e-7
+# Computed singular values are off by a few times eps ||M||.
+_NOISE = 8 * EPS
+
+
+def _midpoints(values: Array) -> Array:
+    values = np.sort(values)
+    return (values[1:] + values[:-1]) / 2
 
 
 def _vertical_midpoints(form: SchurForm, x: float, level: float) -> Numbers:
-    """Return points of Re z = x between those where ``level`` is a singular value of z I - M.
+    """Return points of Re z = x between those where ``level`` is a singular value of z I - T.
 
-    These are the x + i y for imaginary eigenvalues i y of a Hamiltonian matrix [By].
+    These are the x + i y for imaginary eigenvalues i y of a Hamiltonian matrix [By]. All its
+    eigenvalues are taken: rounding moves those of a crowded cluster from the imaginary axis by far
+    more than itself, and each point is judged by its sigma_min.
     """
-    identity = np.eye(len(form.triangle))
+    identity = np.eye(form.size)
     shifted = form.triangle - x * identity
     hamiltonian = np.block([[shifted, level * identity], [-level * identity, -shifted.conj().T]])
-    values = np.linalg.eigvals(hamiltonian)
-    near = np.abs(values.real) <= _ON_CURVE * np.linalg.norm(hamiltonian)
-    y = np.sort(values.imag[near])
-    return x + 0.5j * (y[1:] + y[:-1])
+    y = np.linalg.eigvals(hamiltonian).imag
+    # For a real matrix one half of the line is as the other.
+    return x + 1j * _midpoints(np.append(np.abs(y), [0.0, 0.0]) if form.is_real else y)
 
 
 def _circle_midpoints(form: SchurForm, z: complex, level: float) -> Numbers:
     """Return points of the circle through ``z`` between those where ``level`` is a singular value.
 
-    These are at the arguments of unimodular eigenvalues of a symplectic pencil [MO]; and ``z``,
-    known to be one of them.
+    These are at the arguments of unimodular eigenvalues of a symplectic pencil [MO], of which all
+    are taken as above; and ``z``, known to be one of them.
     """
-    t, identity = form.triangle, np.eye(len(form.triangle))
+    t, identity = form.triangle, np.eye(form.size)
     radius = abs(z)
-    values = eigvals(
+    above, below = eigvals(
         np.block([[t, level * identity], [0 * identity, radius * identity]]),
         np.block([[radius * identity, 0 * identity], [level * identity, t.conj().T]]),
+        homogeneous_eigvals=True,
     )
-    near = np.abs(np.abs(values) - 1) <= _ON_CURVE * (1 + np.linalg.norm(t) / radius)
-    angle = np.sort(np.append(np.angle(values[near]), np.angle(z)))
-    middle = angle + np.diff(angle, append=angle[0] + 2 * np.pi) / 2
-    return np.asarray(radius * np.exp(1j * middle))
+    angle = np.append(np.angle(above * np.conj(below)), np.angle(z))
+    return np.asarray(radius * np.exp(1j * _midpoints(np.append(angle, angle.min() + 2 * np.pi))))
 
 
 def _least(form: SchurForm, points: Numbers) -> tuple[float, complex]:
-    """Return the smallest sigma_min among ``points`` (infinite if there are none), and where."""
-    if not points.size:
-        return inf, 0j
-    sigma = smallest_singular_values(form, points, _TOLERANCE)
+    """Return the smallest sigma_min among ``points``, and where."""
+    sigma = unit_sigma_min(form, points, _TOLERANCE)
     best = int(np.argmin(sigma))
     return float(sigma[best]), complex(points[best])
 
@@ -92,19 +96,16 @@ def _criss_cross(
     ``across`` on its line or circle, and again, until all of them are outside. Any boundary point
     serves, so moving outward takes a root search only and no eigenproblem.
     """
-    if not form.rounding < epsilon < inf:
-        raise InvalidParameterError(
-            f"epsilon = {epsilon} is out of range: it must be finite and exceed rounding, "
-            f"{form.rounding:.1e}"
-        )
-    inner, reached = start, -inf
+    inner, reached, noise = start, -inf, _NOISE * form.norm
     for _ in range(_STEPS):
-        direction, far = outward(inner), limit - size(inner)
+        direction, far = outward(inner), limit + noise - size(inner)
 
         def excess(r: float, z: complex = inner, direction: complex = direction) -> float:
             return _least(form, np.array([z + r * direction]))[0] - epsilon
 
-        z = inner + direction * brentq(excess, 0.0, far, xtol=form.rounding + _EPS * far)
+        # An eigenvalue is inside, whatever rounding says.
+        step = brentq(excess, 0.0, far, xtol=EPS * (form.norm + far)) if excess(0.0) < 0 else 0.0
+        z = inner + direction * step
         previous, reached = reached, size(z)
         sigma, inner = _least(form, across(z))
         if sigma >= epsilon * (1 - _TOLERANCE) or reached <= previous:
@@ -112,7 +113,27 @@ def _criss_cross(
     raise ConvergenceError(f"the criss-cross search still moves after {_STEPS} steps")
 
 
-def pseudospectral_abscissa(form: SchurForm, epsilon: float) -> tuple[float, complex]:
+def _search(
+    form: SchurForm, epsilon: float, search: Callable[[float], tuple[float, complex]]
+) -> tuple[float, complex]:
+    """Return the result of a search in the units of the triangle, in those of the matrix."""
+    level = float(times_power(epsilon, -form.exponent)) if isfinite(epsilon) else nan
+    if not level > EPS * form.norm:
+        raise InvalidParameterError(
+            f"epsilon = {epsilon} is out of range: it must be finite and exceed rounding, "
+            f"{form.rounding:.1e}"
+        )
+    if level >= FAR * form.norm:  # a disc about 0, but for rounding
+        return epsilon, complex(epsilon)
+    size, z = search(level)
+    return (
+        float(represented("the size of the pseudospectrum", size, form.exponent)),
+        complex(represented("z", z, form.exponent)),
+    )
+
+
+@checked
+def pseudospectral_abscissa(form: SchurForm, epsilon: AnyFloat) -> tuple[float, complex]:
     """Return the largest Re z of the epsilon-pseudospectrum, and a z where it is attained.
 
     Criss-cross search [BLO]: global, and quadratic in the end. Each of its few steps takes the
@@ -128,18 +149,23 @@ def pseudospectral_abscissa(form: SchurForm, epsilon: float) -> tuple[float, com
     t = form.triangle
     # sigma_min(z I - M) >= Re z - numerical abscissa.
     numerical_abscissa = float(np.linalg.eigvalsh((t + t.conj().T) / 2)[-1])
-    return _criss_cross(
-        form,
-        epsilon,
-        start=complex(max(form.eigenvalues, key=np.real)),
-        size=lambda z: z.real,
-        limit=numerical_abscissa + 2 * epsilon,
-        outward=lambda z: 1.0,
-        across=lambda z: _vertical_midpoints(form, z.real, epsilon),
-    )
+
+    def search(level: float) -> tuple[float, complex]:
+        return _criss_cross(
+            form,
+            level,
+            start=complex(max(form.diagonal, key=np.real)),
+            size=lambda z: z.real,
+            limit=numerical_abscissa + 2 * level,
+            outward=lambda z: 1.0,
+            across=lambda z: _vertical_midpoints(form, z.real, level),
+        )
+
+    return _search(form, epsilon, search)
 
 
-def pseudospectral_radius(form: SchurForm, epsilon: float) -> tuple[float, complex]:
+@checked
+def pseudospectral_radius(form: SchurForm, epsilon: AnyFloat) -> tuple[float, complex]:
     """Return the largest |z| of the epsilon-pseudospectrum, and a z where it is attained.
 
     Criss-cross search on rays and circles [MO]; a step takes the eigenvalues of a pencil of order
@@ -152,17 +178,22 @@ def pseudospectral_radius(form: SchurForm, epsilon: float) -> tuple[float, compl
     ConvergenceError
         If the search does not end.
     """
-    return _criss_cross(
-        form,
-        epsilon,
-        start=complex(max(form.eigenvalues, key=abs)),
-        size=abs,
-        limit=float(np.linalg.norm(form.triangle, 2)) + 2 * epsilon,
-        outward=lambda z: z / abs(z) if z else 1.0,
-        across=lambda z: _circle_midpoints(form, z, epsilon),
-    )
+
+    def search(level: float) -> tuple[float, complex]:
+        return _criss_cross(
+            form,
+            level,
+            start=complex(max(form.diagonal, key=abs)),
+            size=abs,
+            limit=float(np.linalg.norm(form.triangle, 2)) + 2 * level,
+            outward=lambda z: z / abs(z) if z else 1.0,
+            across=lambda z: _circle_midpoints(form, z, level),
+        )
+
+    return _search(form, epsilon, search)
 
 
+@checked
 def distance_to_instability(form: SchurForm) -> tuple[float, float]:
     """Return the smallest sigma_min(i y I - M) over real y, and the y where it is attained.
 
@@ -179,11 +210,14 @@ def distance_to_instability(form: SchurForm) -> tuple[float, float]:
     ConvergenceError
         If the iteration does not end.
     """
-    value, z = _least(form, 1j * form.eigenvalues.imag)
+    value, z = _least(form, 1j * form.diagonal.imag)
     for _ in range(_STEPS):
         level = value * (1 - _TOLERANCE)
         lower, inner = _least(form, _vertical_midpoints(form, 0.0, level))
-        if lower >= level or value <= form.rounding:
-            return value, z.imag
+        if lower >= level or value <= EPS * form.norm:
+            return (
+                float(represented("the distance to instability", value, form.exponent)),
+                float(represented("y", z.imag, form.exponent)),
+            )
         value, z = lower, inner
     raise ConvergenceError(f"the level-set iteration still moves after {_STEPS} steps")

@@ -1,26 +1,25 @@
 """How sensitive the kept part of the spectrum is, and how far the verdict of stability stands."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import block_diag
 
+from hopper.arguments import RealLike, checked
 from hopper.arrays import Array, Complex
+from hopper.brief import brief
+from hopper.errors import InvalidParameterError
 from hopper.spectral.matching import match_kept
-from hopper.spectral.pseudospectrum import (
-    eigenvalue_condition_numbers,
-    kreiss_lower_bound,
-    pseudospectrum,
-    smallest_singular_values,
-)
+from hopper.spectral.pseudospectrum import eigenvalue_condition_numbers, smallest_singular_values
 from hopper.spectral.robust_stability import distance_to_instability
 from hopper.spectral.schur import SchurForm, schur_form
-from hopper.spectral.transient import ModalBasis, modal_matrix
+from hopper.spectral.transient import ModalBasis, modal_matrix, require_modes
 
-# Offsets from the abscissa, relative to it or to 1, scanned for the Kreiss bound.
-_OFFSETS = np.logspace(-2, 2, 25)
-_HEIGHTS = 201
+# Offsets from the abscissa scanned for the Kreiss bound, relative to the spread of eigenvalues.
+_OFFSETS = np.logspace(-6, 0, 37)
+# Computed singular values are off by a few times eps ||M||.
+_NOISE = 8.0
 
 
 @dataclass(frozen=True)
@@ -43,36 +42,76 @@ class KeptSensitivity:
     frequency: float
     kreiss: float
 
+    __repr__ = brief("distance", "frequency", "kreiss")
 
-def kept_form(bases: list[ModalBasis]) -> SchurForm:
-    """Return the Schur form of M restricted to the modes of one or both parities."""
+
+@checked
+def kept_form(bases: Sequence[ModalBasis]) -> SchurForm:
+    """Return the Schur form of M restricted to the modes of one or both parities.
+
+    Raises
+    ------
+    InvalidParameterError
+        If no basis is given.
+    """
+    require_modes(bases)
     return schur_form(block_diag(*[modal_matrix(basis) for basis in bases]))
 
 
-def kept_sensitivity(bases: list[ModalBasis]) -> KeptSensitivity:
+@checked
+def kept_sensitivity(bases: Sequence[ModalBasis]) -> KeptSensitivity:
     """Return the measures of the modes of one or both parities together.
 
     Raises
     ------
+    InvalidParameterError
+        If no basis is given.
     ConvergenceError
         If the level-set iteration for the distance does not converge.
     """
+    require_modes(bases)
     parts = [schur_form(modal_matrix(basis)) for basis in bases]
     distance, frequency = min(distance_to_instability(part) for part in parts)
     alpha = max(basis.abscissa for basis in bases)
-    real = alpha + max(1.0, abs(alpha)) * _OFFSETS
-    highest = max(float(basis.eigenvalues.imag.max()) for basis in bases)
-    imag = np.linspace(0, max(highest, 1.0), _HEIGHTS)
-    kreiss = max(kreiss_lower_bound(pseudospectrum(part, real, imag), alpha)[0] for part in parts)
+    spread = max(float(np.abs(basis.eigenvalues - alpha).max()) for basis in bases)
+    real = alpha + (spread or abs(alpha)) * _OFFSETS
+    kreiss = max(_kreiss(part, real, alpha) for part in parts)
     return KeptSensitivity(distance, abs(frequency), kreiss)
 
 
-def resolvent_norm(forms: list[SchurForm], frequencies: NDArray[np.floating]) -> Array:
-    """Return ||(i y - M)^-1|| at the frequencies y of an operator split into the given parts."""
-    lowest = np.min([smallest_singular_values(form, 1j * frequencies) for form in forms], axis=0)
-    return 1 / lowest
+def _kreiss(form: SchurForm, real: Array, alpha: float) -> float:
+    """Return the largest (x - alpha) / sigma_min(x + i y), at least 1, its limit for large x.
+
+    The y are the imaginary parts of the eigenvalues and midpoints between them.
+    """
+    heights = np.unique(np.append(np.abs(form.eigenvalues.imag), 0.0))
+    heights = np.concatenate([heights, (heights[1:] + heights[:-1]) / 2])
+    sigma = smallest_singular_values(form, real + 1j * heights[:, None])
+    with np.errstate(invalid="ignore"):  # 0 / 0 of the zero matrix
+        ratio = (real - alpha) / (sigma + _NOISE * form.rounding)
+    return max(1.0, float(np.nan_to_num(ratio).max()))
 
 
+@checked
+def resolvent_norm(forms: Sequence[SchurForm], frequencies: RealLike) -> Array:
+    """Return ||(i y - M)^-1|| at the frequencies y of an operator split into the given parts.
+
+    It is infinite where sigma_min is 0.
+
+    Raises
+    ------
+    InvalidParameterError
+        If no part is given, or a frequency is not finite.
+    """
+    if not forms:
+        raise InvalidParameterError("forms is empty: give the form of at least one part")
+    points = 1j * np.asarray(frequencies)
+    lowest = np.min([smallest_singular_values(form, points) for form in forms], axis=0)
+    with np.errstate(divide="ignore"):
+        return np.asarray(1 / lowest)
+
+
+@checked
 def kept_condition_numbers(form: SchurForm, kept: Complex) -> Array:
     """Return the condition numbers of the kept eigenvalues of a matrix, shape (k,).
 

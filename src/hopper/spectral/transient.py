@@ -10,14 +10,21 @@ bases are those of parts of M that are orthogonal to each other.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.linalg import eig, qr, solve_triangular
 
+from hopper.arguments import RealLike, checked
 from hopper.arrays import Array, Complex
-from hopper.errors import InvalidParameterError
+from hopper.brief import brief
+from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.spectral.matching import match_kept
+from hopper.spectral.scaling import exponent_of, represented, times_power
+from hopper.spectral.schur import EPS, square, weight_roots
+
+# Largest phase of a mode: rounding of it, in radians, stays below 1e-4.
+_LARGEST_PHASE = 1e-4 / EPS
 
 
 @dataclass(frozen=True)
@@ -36,12 +43,20 @@ class ModalBasis:
     eigenvalues: Complex
     factor: Array
 
+    __repr__ = brief("size", "abscissa")
+
+    @property
+    def size(self) -> int:
+        """Number of modes k."""
+        return self.eigenvalues.size
+
     @property
     def abscissa(self) -> float:
         """Largest real part."""
         return float(self.eigenvalues.real.max())
 
 
+@checked
 def basis_of(matrix: Array, weight: Array, kept: Complex) -> ModalBasis:
     """Return the basis of kept modes of a real matrix, in the norm ||u||^2 = sum_i w_i |u_i|^2.
 
@@ -57,36 +72,63 @@ def basis_of(matrix: Array, weight: Array, kept: Complex) -> ModalBasis:
     Raises
     ------
     InvalidParameterError
-        If a kept value is not an eigenvalue of the matrix, or the conjugate of one is not kept.
+        If the matrix is not square or a weight not positive; if nothing is kept, a kept value is
+        not an eigenvalue of the matrix, or the conjugate of one is not kept; or if the kept
+        eigenvectors are linearly dependent to rounding.
+    ConvergenceError
+        If LAPACK finds no eigenvalues.
     """
-    values, vectors = eig(matrix, check_finite=False)
+    exponent = exponent_of(square("matrix", matrix))
+    root = weight_roots(weight, len(matrix))
+    try:
+        scaled, vectors = eig(times_power(matrix, -exponent), check_finite=False)
+    except np.linalg.LinAlgError as error:
+        raise ConvergenceError(f"no eigenvalues of the matrix found: {error}") from None
+    values = represented("eigenvalues", scaled, exponent)
     found = match_kept(kept, values)
     real = found[values[found].imag == 0]
     upper = found[values[found].imag > 0]
+    if not kept.size:
+        raise InvalidParameterError("kept is empty: keep at least one eigenvalue")
     if set(found) != set(match_kept(kept.conj(), values)):
         raise InvalidParameterError("kept eigenvalues are not closed under conjugation")
-    weighted = np.sqrt(weight)[:, None] * vectors
+    weighted = root[:, None] * vectors
     weighted = weighted / np.linalg.norm(weighted, axis=0)
     columns = np.sqrt(2) * weighted[:, upper]
-    pairs = np.stack([columns.real, columns.imag], axis=2).reshape(weight.size, -1)
+    pairs = np.stack([columns.real, columns.imag], axis=2).reshape(root.size, -1)
     (factor,) = qr(np.hstack([weighted[:, real].real, pairs]), mode="r", check_finite=False)
+    factor = factor[: kept.size, : kept.size]
+    singular = np.linalg.svd(factor, compute_uv=False)
+    if not singular[-1] > EPS * singular[0]:
+        raise InvalidParameterError(
+            "kept eigenvectors are linearly dependent to rounding: keep one of each cluster"
+        )
     ordered = np.stack([values[upper], values[upper].conj()], axis=1).reshape(-1)
-    size = kept.size
-    return ModalBasis(np.concatenate([values[real], ordered]), factor[:size, :size])
+    return ModalBasis(np.concatenate([values[real], ordered]), factor)
 
 
+@checked
 def modal_matrix(basis: ModalBasis) -> Array:
-    """Return M restricted to the modes, in the orthonormal basis of their span, shape (k, k)."""
-    values = basis.eigenvalues
+    """Return M restricted to the modes, in the orthonormal basis of their span, shape (k, k).
+
+    Raises
+    ------
+    InvalidParameterError
+        If an entry is outside the range of numbers.
+    """
+    exponent = exponent_of(basis.eigenvalues)
+    values = times_power(basis.eigenvalues, -exponent)
     real = int(np.sum(values.imag == 0))
     diagonal = np.diag(values.real)
     index = np.arange(real, values.size, 2)
     diagonal[index, index + 1] = values[real::2].imag
     diagonal[index + 1, index] = -values[real::2].imag
     product = basis.factor @ diagonal
-    return solve_triangular(basis.factor, product.T, trans="T", check_finite=False).T
+    entries = solve_triangular(basis.factor, product.T, trans="T", check_finite=False).T
+    return represented("the matrix of the modes", entries, exponent)
 
 
+@checked
 def condition_number(bases: Sequence[ModalBasis]) -> float:
     """Return kappa(V) of the modes of one or both parities together.
 
@@ -95,58 +137,92 @@ def condition_number(bases: Sequence[ModalBasis]) -> float:
     InvalidParameterError
         If no basis is given.
     """
-    _require_modes(bases)
+    require_modes(bases)
     values = [np.linalg.svd(basis.factor, compute_uv=False) for basis in bases]
     return float(max(v[0] for v in values) / min(v[-1] for v in values))
 
 
+@checked
 def abscissa(bases: Sequence[ModalBasis]) -> float:
     """Return the largest real part among the modes of one or both parities, as above."""
-    _require_modes(bases)
+    require_modes(bases)
     return max(basis.abscissa for basis in bases)
 
 
-def propagator_norm(bases: Sequence[ModalBasis], elapsed: ArrayLike) -> Array:
-    """Return ||exp(-t M)|| on the span of the modes at ``elapsed`` = -t >= 0, same shape.
+@checked
+def propagator_norm(bases: Sequence[ModalBasis], elapsed: RealLike) -> Array:
+    """Return ||exp(t M)|| on the span of the modes at t = ``elapsed`` >= 0, same shape.
 
     Raises
     ------
     InvalidParameterError
-        If a time is negative or not finite, or no basis is given.
+        If a time is negative or not finite, or no basis is given; or if a time is so long that the
+        norm exceeds 1e308 or a phase is lost in rounding.
     """
-    times = np.asarray(elapsed, dtype=float)
-    _require_modes(bases)
-    if not (np.isfinite(times).all() and np.all(times >= 0)):
-        raise InvalidParameterError("elapsed times must be finite and not negative: elapsed = -t")
-    norms = [np.fromiter(_norms(basis, times.ravel()), float, times.size) for basis in bases]
-    return np.max(norms, axis=0).reshape(times.shape)
+    return _norm(bases, np.asarray(elapsed), 0.0)
 
 
-def _require_modes(bases: Sequence[ModalBasis]) -> None:
+@checked
+def require_modes(bases: Sequence[ModalBasis]) -> None:
+    """Check that there are modes.
+
+    Raises
+    ------
+    InvalidParameterError
+        If there are none.
+    """
     if not bases:
-        raise InvalidParameterError("no modes: give the basis of at least one parity")
+        raise InvalidParameterError("bases has no modes: give the basis of at least one parity")
 
 
-def _norms(basis: ModalBasis, times: Array) -> Iterator[float]:
-    values, size = basis.eigenvalues, basis.eigenvalues.size
+def _norm(bases: Sequence[ModalBasis], times: Array, rate: float) -> Array:
+    """Return exp(-rate t) ||exp(t M)||."""
+    require_modes(bases)
+    if not np.all(times >= 0):
+        raise InvalidParameterError("elapsed times must be finite and not negative: elapsed = -t")
+    longest = float(times.max(initial=0.0))
+    highest = max(float(np.abs(basis.eigenvalues.imag).max()) for basis in bases)
+    if highest * longest > _LARGEST_PHASE:
+        raise InvalidParameterError(
+            f"elapsed = {longest:.6g} is too long: the phases of the modes, up to "
+            f"{highest * longest:.1e}, are lost in rounding; give shorter times"
+        )
+    norm = np.zeros(times.shape)
+    for basis in bases:
+        relative = np.fromiter(_relative_norms(basis, times.ravel()), float, times.size)
+        with np.errstate(over="ignore"):
+            growth = np.exp((basis.abscissa - rate) * times)
+        norm = np.maximum(norm, growth * relative.reshape(times.shape))
+    if not np.isfinite(norm).all():
+        raise InvalidParameterError(
+            f"elapsed = {longest:.6g} is too long: the norm exceeds 1e308; give shorter times"
+        )
+    return norm
+
+
+def _relative_norms(basis: ModalBasis, times: Array) -> Iterator[float]:
+    """Yield exp(-t alpha) ||exp(t M)||, alpha of this basis: neither over- nor underflows."""
+    values, size = basis.eigenvalues - basis.abscissa, basis.size
     real = int(np.sum(values.imag == 0))
     first = values[real::2]
     inverse = solve_triangular(basis.factor, np.eye(size), check_finite=False)
     for time in times:
-        # exp(time Lambda) in the real basis: scaling, and a rotation for each pair.
+        # exp(time (Lambda - alpha)) in the real basis: scaling, and a rotation for each pair.
         grown = np.empty_like(inverse)
-        grown[:real] = np.exp(time * values[:real].real)[:, None] * inverse[:real]
-        factor = np.exp(time * first)[:, None]
+        with np.errstate(over="ignore"):
+            decay, factor = (np.exp(time * rate)[:, None] for rate in (values[:real].real, first))
+        grown[:real] = decay * inverse[:real]
         rows, columns = inverse[real::2], inverse[real + 1 :: 2]
         grown[real::2] = factor.real * rows + factor.imag * columns
         grown[real + 1 :: 2] = factor.real * columns - factor.imag * rows
         yield float(np.linalg.norm(basis.factor @ grown, 2))
 
 
+@checked
 def oscillation(
     bases: Sequence[ModalBasis], start: float, length: float, points: int
 ) -> tuple[float, float]:
-    """Return how much exp(t alpha) ||exp(-t M)|| varies over [start, start + length] of -t.
+    """Return how much exp(-t alpha) ||exp(t M)|| varies over [start, start + length] of t.
 
     Parameters
     ----------
@@ -161,8 +237,18 @@ def oscillation(
     -------
     amplitude, error : float
         Largest minus least over the mean, and its change from half as many times.
+
+    Raises
+    ------
+    InvalidParameterError
+        If a time is negative, not finite or too long for the phases; if there are fewer than three
+        points; or if no basis is given.
     """
-    elapsed = np.linspace(start, start + length, points)
-    relative = propagator_norm(bases, elapsed) * np.exp(-abscissa(bases) * elapsed)
+    for name, value in (("start", start), ("length", length), ("start + length", start + length)):
+        if not 0 <= value < inf:
+            raise InvalidParameterError(f"{name} = {value} must be finite and not negative")
+    if points < 3:
+        raise InvalidParameterError(f"points = {points} times: give at least 3")
+    relative = _norm(bases, np.linspace(start, start + length, points), abscissa(bases))
     fine, coarse = (float(np.ptp(x) / np.mean(x)) for x in (relative, relative[::2]))
     return fine, abs(fine - coarse)

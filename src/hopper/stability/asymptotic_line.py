@@ -1,26 +1,36 @@
 """The vertical line that eigenvalues of large modulus approach, by quadrature.
 
-To leading WKB order a wave that runs along both characteristics c = (-sin 2psi -+ cos delta) / q
-between the axis and the wall grows at the mean rate Lambda, the limit of Re(lambda) for
-|Im(lambda)| -> infinity; modes of one parity are spaced evenly in Im(lambda).
+To leading WKB order a wave that runs along both characteristics, with speeds +-w / cos(delta) in
+tilted time, grows between axis and wall at the mean rate
+
+    Lambda = 1/2 integral (F11 + F22) cos(delta) / w  /  integral cos(delta) / w,
+
+the limit of Re(lambda) for |Im(lambda)| -> infinity; modes of one parity are spaced evenly in
+Im(lambda). Both parities have the same line.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from math import cos, pi
+from math import cos, inf, pi
 
 import numpy as np
 
-from hopper.arrays import Array
-from hopper.errors import ConvergenceError
+from hopper.arguments import checked
+from hopper.brief import brief
+from hopper.errors import ConvergenceError, not_resolved_because
+from hopper.radial.grid import Grid
 from hopper.radial.solution import RadialSolution
 from hopper.spectral import chebyshev
-from hopper.stability.linearisation import coefficients_on_half_grid, require_no_tangency
+from hopper.stability.collocation import mode_grid
+from hopper.stability.tilted import TiltedCoefficients, stacked_on_grids
 
-_SIZES = (24, 36, 54, 80, 120, 180, 270, 400)
+# Half-grid points of the quadrature.
+LINE_SIZES = (36, 54, 80, 120, 180, 270, 400)
 _TOLERANCE = 1e-13
 _ACCEPTABLE = 1e-6
-# Rounding of the quadrature and of q = s - cos(2 psi), which is small near the tangency.
 _ROUNDING = 1e-13
+# Coefficients of the integrands that tell what the quadrature leaves.
+_LAST = 3
 
 
 @dataclass(frozen=True)
@@ -28,64 +38,72 @@ class AsymptoticLine:
     """Limit ``abscissa`` of Re(lambda) and ``spacing`` in Im(lambda) of modes of one parity.
 
     ``error_estimate`` is that of the abscissa: the decay of the integrand's Chebyshev
-    coefficients, the error of the radial solution, and rounding.
+    coefficients, the error of the radial solution, and rounding. ``tail`` is the first of them,
+    relative.
     """
 
     abscissa: float
     spacing: float
     error_estimate: float
+    tail: float
+
+    __repr__ = brief("abscissa", "spacing", "error_estimate")
 
 
-def asymptotic_line(solution: RadialSolution) -> AsymptoticLine:
+@checked
+def asymptotic_line(
+    solution: RadialSolution, first: AsymptoticLine | None = None, tolerance: float = _TOLERANCE
+) -> AsymptoticLine:
     """Return the asymptotic line of a radial solution.
+
+    Parameters
+    ----------
+    solution : RadialSolution
+        Of a Mohr-Coulomb material.
+    first : AsymptoticLine, optional
+        Of the first of ``LINE_SIZES``, from :func:`lines_on`.
+    tolerance : float
+        What the quadrature may leave of the error, relative.
 
     Raises
     ------
-    TangencyError
-        If psi reaches pi/4 - delta/2.
+    InvalidParameterError
+        If the material is not Mohr-Coulomb.
     ConvergenceError
-        If the quadrature does not reach 1e-6; psi is then too close to that value.
+        If the quadrature does not reach 1e-6, relative; psi is too close to its singular value.
     """
-    require_no_tangency(solution)
-    half_angle = solution.hopper.half_angle
-    for size in _SIZES:
-        growth, time = _integrands(solution, size)
-        # The integrands are even: Clenshaw-Curtis on the full grid, by its positive half.
-        weights = chebyshev.clenshaw_curtis_weights(2 * size)[size:]
-        travel_time = float(weights @ time)
-        abscissa = float(weights @ growth) / travel_time
-        last = chebyshev.half_coefficients(np.stack([growth, time], axis=1), "even")[-3:]
-        tail = (
-            max(
-                float(np.abs(last[:, 0] - abscissa * last[:, 1]).max()),
-                abs(abscissa) * float(np.abs(last[:, 1]).max()),
-            )
-            / travel_time
-        )
-        if tail < _TOLERANCE * max(1.0, abs(abscissa)):
+    line = first
+    for size in LINE_SIZES[bool(first) :]:
+        if line and line.tail < tolerance:
             break
-    error = tail + _sensitivity(growth, time) * solution.error_estimate
-    error += _ROUNDING * max(1.0, abs(abscissa))
-    if error > _ACCEPTABLE * max(1.0, abs(abscissa)):
+        grid = mode_grid(solution, size, "symmetric")
+        (line,) = lines_on([solution], grid, stacked_on_grids([solution], [grid])[0])
+    if line is None or line.tail > _ACCEPTABLE:
         raise ConvergenceError(
-            f"asymptotic line not resolved: error {error:.1e}; psi is too close to "
-            "pi/4 - delta/2, lower the wall friction"
+            f"asymptotic line not resolved: error {line.error_estimate if line else inf:.1e}; "
+            f"{not_resolved_because(solution.friction_angle)}"
         )
-    return AsymptoticLine(abscissa, pi / (half_angle * travel_time), error)
+    return line
 
 
-def _integrands(solution: RadialSolution, size: int) -> tuple[Array, Array]:
-    """Return (P cos delta + Q sin 2psi) / (s + cos 2psi) and cos delta / (s + cos 2psi)."""
-    hopper = solution.hopper
-    at = coefficients_on_half_grid(solution, size)
-    rho = 2 * hopper.s * at.sigma / cos(hopper.delta)
-    p = (at.f11 + at.f22) / 2
-    q = (at.f12 / rho + rho * at.f21) / 2
-    speed = hopper.s + np.cos(2 * at.psi)
-    growth = (p * cos(hopper.delta) + q * np.sin(2 * at.psi)) / speed
-    return growth, cos(hopper.delta) / speed
+@checked
+def lines_on(
+    solutions: Sequence[RadialSolution], grid: Grid, at: TiltedCoefficients
+) -> list[AsymptoticLine]:
+    """Return the lines of solutions of one hopper by quadrature on one half grid off the axis.
 
-
-def _sensitivity(growth: Array, time: Array) -> float:
-    """Amplification of relative errors of the fields by the integrand, an order of magnitude."""
-    return float(np.abs(growth).max() / np.abs(time).min())
+    ``at`` are their coefficients there, of shape (solutions, points).
+    """
+    slowness = cos(solutions[0].hopper.delta) / at.w
+    growth = (at.f11 + at.f22) / 2
+    travel_time = slowness @ grid.weights
+    abscissa = (growth * slowness) @ grid.weights / travel_time
+    size = np.maximum(1.0, np.abs(abscissa))
+    integrands = (growth - abscissa[:, None]) * slowness, slowness * size[:, None]
+    last = chebyshev.last_half_coefficients(grid.size, "even", _LAST)
+    left = [np.abs((part * grid.stretch) @ last.T).max(axis=1) for part in integrands]
+    tail = np.maximum(*left) / travel_time
+    of_fields = np.array([solution.error_estimate for solution in solutions])
+    error = tail + (np.abs(growth).max(axis=1) + size) * of_fields + _ROUNDING * size
+    found = zip(abscissa, pi / travel_time, error, tail / size, strict=True)
+    return [AsymptoticLine(*map(float, values)) for values in found]

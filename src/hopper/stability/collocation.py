@@ -1,105 +1,99 @@
-"""Chebyshev collocation of the stability operator M = A D + F, (4.2).
+"""Chebyshev collocation of the stability operator in tilted time, M' = J (D + K).
 
-*Paper mode*: the full interval [-theta_w, theta_w], N nodes (N even, so none lies on the axis),
-sigma1 at all of them, psi1 at the N - 2 inner ones: size 2 N - 2.
-
-*Physical mode*: sigma1 even and psi1 odd, on the half grid of m nodes: size 2 m - 1. The radial
-solution's parity splits the paper's matrix of N = 2 m nodes exactly into this half and the
-*mirrored* half, sigma1 odd and psi1 even, whose modes are not smooth at the apex of a cone.
+Its eigenvalues are those of M = A D + F, (4.2), for every radial solution. Disturbances are
+*symmetric* (sigma1 even and psi1 odd, as the flow is) or *asymmetric* (the reverse), which is
+smooth at the apex of a wedge and singular at that of a cone. psi1 vanishes at the wall; sigma1 is
+free.
 """
 
 from typing import Literal
 
 import numpy as np
 
+from hopper.arguments import checked
 from hopper.arrays import Array
 from hopper.errors import InvalidParameterError
+from hopper.problem import Geometry
+from hopper.radial.grid import Grid, half_grid, layer_clustering
 from hopper.radial.solution import RadialSolution
-from hopper.spectral import chebyshev
-from hopper.stability.linearisation import (
-    Coefficients,
-    coefficients,
-    coefficients_on_half_grid,
-    require_no_tangency,
-)
+from hopper.stability.tilted import TiltedCoefficients, on_grids
 
-Half = Literal["physical", "mirrored"]
+Parity = Literal["symmetric", "asymmetric"]
+PARITIES: tuple[Parity, Parity] = ("symmetric", "asymmetric")
 
 
-def paper_matrix(solution: RadialSolution, n: int, psi_scale: float = 1.0) -> Array:
-    """Return M of ``n`` nodes in paper mode, shape (2 n - 2, 2 n - 2).
+@checked
+def parities_of(geometry: Geometry) -> tuple[Parity, ...]:
+    """Return the parities that are disturbances: both of a wedge, the flow's of a cone."""
+    return PARITIES if geometry == "wedge" else PARITIES[:1]
 
-    Unknowns: sigma1 at theta_1 < ... < theta_n, then psi1 / psi_scale at theta_2 ... theta_(n-1).
+
+@checked
+def mode_grid(solution: RadialSolution, m: int, parity: Parity) -> Grid:
+    """Return the half grid of ``m`` points on which modes of a solution are collocated.
+
+    Points are drawn to the apex where the radial solution has a layer there. With a point on the
+    axis, asymmetric disturbances have no grid mode: on an even number of points sigma1 = T_(N-1) is
+    one that the second equation does not see.
+    """
+    hopper = solution.hopper
+    clustering = layer_clustering(hopper, solution.member.tau)
+    return half_grid(m, hopper.half_angle, clustering, centred=parity == "asymmetric")
+
+
+@checked
+def tilted_matrix(solution: RadialSolution, m: int, parity: Parity = "symmetric") -> Array:
+    """Return M' on ``m`` half-grid points, shape (2 m - 1, 2 m - 1), or (2 m - 2, 2 m - 2).
+
+    Unknowns of symmetric disturbances: sigma1 at theta_1 < ... < theta_m = theta_w, then psi1 at
+    the first m - 1. Of asymmetric ones: sigma1 at theta_2 ... theta_m, as it vanishes on the axis
+    theta_1 = 0, then psi1 at the first m - 1.
 
     Raises
     ------
     InvalidParameterError
-        If n is odd (a node on the axis, where the equations are singular) or less than 4.
-    TangencyError
-        If psi reaches pi/4 - delta/2.
+        If m < 3, the parity is unknown or singular at the apex of a cone, or the material is not
+        Mohr-Coulomb.
     """
-    require_even(n)
-    x = chebyshev.nodes(n)
-    require_no_tangency(solution)
-    at = coefficients(solution, solution.hopper.half_angle * x, psi_scale)
-    d = chebyshev.differentiation_matrix(n) / solution.hopper.half_angle
-    matrix = _assemble(at, d, d)
-    inner = np.delete(np.arange(2 * n), [n, 2 * n - 1])
-    return matrix[np.ix_(inner, inner)]
+    require_disturbance(solution.hopper.geometry, parity)
+    if m < 3:
+        raise InvalidParameterError(f"m = {m!r} half-grid points: give at least 3")
+    grid = mode_grid(solution, m, parity)
+    (at,) = on_grids(solution, [grid])
+    return assemble(grid, at)
 
 
-def half_matrix(
-    solution: RadialSolution, m: int, half: Half = "physical", psi_scale: float = 1.0
-) -> Array:
-    """Return M on a half grid of ``m`` nodes, shape (2 m - 1, 2 m - 1).
-
-    Unknowns: sigma1 at theta_1 < ... < theta_m = theta_w, then psi1 / psi_scale at the first
-    m - 1 of them; sigma1 even and psi1 odd (physical), or the reverse (mirrored).
+@checked
+def require_disturbance(geometry: Geometry, parity: str) -> None:
+    """Check that disturbances of a parity are smooth at the apex.
 
     Raises
     ------
     InvalidParameterError
-        If m < 2.
-    TangencyError
-        If psi reaches pi/4 - delta/2.
+        If they are not, or the parity is unknown.
     """
-    if m < 2:
-        raise InvalidParameterError(f"m = {m!r} half-grid nodes: give at least 2")
-    require_no_tangency(solution)
-    half_angle = solution.hopper.half_angle
-    at = coefficients_on_half_grid(solution, m, psi_scale)
-    even = chebyshev.half_differentiation_matrix(m, "even") / half_angle
-    odd = chebyshev.half_differentiation_matrix(m, "odd") / half_angle
-    d_sigma, d_psi = (even, odd) if half == "physical" else (odd, even)
-    return _assemble(at, d_sigma, d_psi)[:-1, :-1]
-
-
-def require_even(n: int) -> None:
-    """Check a number of nodes on the full interval.
-
-    Raises
-    ------
-    InvalidParameterError
-        If it is not an even integer of at least 4.
-    """
-    if not isinstance(n, int | np.integer) or n < 4 or n % 2:
+    if parity not in PARITIES:
+        raise InvalidParameterError(f"parity = {parity!r} is unknown: use {' or '.join(PARITIES)}")
+    if parity not in parities_of(geometry):
         raise InvalidParameterError(
-            f"n = {n!r} nodes: give an even integer of at least 4, so that no node falls on the "
-            "axis, where the equations are singular"
+            "asymmetric disturbances are singular at the apex of a cone: use symmetric"
         )
 
 
-def _assemble(at: Coefficients, d_sigma: Array, d_psi: Array) -> Array:
-    """Return [[a11 D, a12 D], [a21 D, a11 D]] + [[f11, f12], [f21, f22]]."""
-    m = at.q.size
-    matrix = np.empty((2 * m, 2 * m))
-    matrix[:m, :m] = at.a11[:, None] * d_sigma
-    matrix[:m, m:] = at.a12[:, None] * d_psi
-    matrix[m:, :m] = at.a21[:, None] * d_sigma
-    matrix[m:, m:] = at.a11[:, None] * d_psi
-    node = np.arange(m)
-    matrix[node, node] += at.f11
-    matrix[node, m + node] += at.f12
-    matrix[m + node, node] += at.f21
-    matrix[m + node, m + node] += at.f22
-    return matrix
+@checked
+def assemble(grid: Grid, at: TiltedCoefficients) -> Array:
+    """Return the matrix from the coefficients on its grid: asymmetric if the grid is centred.
+
+    Coefficients of shape (..., m) give matrices of shape (..., n, n).
+    """
+    m, node = grid.size, np.arange(grid.size)
+    d_sigma, d_psi = (grid.d_odd, grid.d_even) if grid.centred else (grid.d_even, grid.d_odd)
+    matrix = np.zeros((*at.f11.shape[:-1], 2 * m, 2 * m))
+    np.multiply(at.j12[..., None], d_psi, out=matrix[..., :m, m:])
+    np.multiply(at.j21[..., None], d_sigma, out=matrix[..., m:, :m])
+    matrix[..., node, node] = at.f11
+    matrix[..., node, m + node] += at.f12
+    matrix[..., m + node, node] += at.f21
+    matrix[..., m + node, m + node] = at.f22
+    inner = slice(int(grid.centred), -1)
+    return matrix[..., inner, inner]

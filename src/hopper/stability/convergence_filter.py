@@ -9,7 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hopper.arguments import checked
 from hopper.arrays import Array, Mask
+from hopper.brief import brief
 from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.spectral.matching import relative_changes
 from hopper.stability.mesh_spectrum import HALVES, MeshSpectrum
@@ -46,7 +48,10 @@ class FilteredSpectrum:
     kept_as_worded: Mask
     reason: NDArray[np.int8]
 
+    __repr__ = brief("fine.n", "kept", "kept_as_worded")
 
+
+@checked
 def convergence_filter(
     fine: MeshSpectrum, coarse: MeshSpectrum, tolerance: float
 ) -> FilteredSpectrum:
@@ -88,6 +93,7 @@ def _reasons(change: Array, tail: Array, tolerance: float) -> NDArray[np.int8]:
     return reason.astype(np.int8)
 
 
+@checked
 def require_finer(n: int, coarse_n: int) -> None:
     """Check the order of two meshes.
 

@@ -10,11 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eig
 
+from hopper.arguments import checked
 from hopper.arrays import Array, Complex
+from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 from hopper.radial.solution import RadialSolution
 from hopper.spectral import chebyshev
-from hopper.stability.collocation import Half, half_matrix, require_even
+from hopper.stability.paper_matrix import Half, half_matrix, require_even
 
 HALVES: tuple[Half, Half] = ("physical", "mirrored")
 _LEAST_NODES = 16
@@ -41,7 +43,10 @@ class MeshSpectrum:
     half: NDArray[np.int8]
     tail: Array
 
+    __repr__ = brief("n", "eigenvalues", "tail")
 
+
+@checked
 def mesh_spectrum(solution: RadialSolution, n: int) -> MeshSpectrum:
     """Return the spectrum of M on ``n`` nodes of the full interval.
 
@@ -49,8 +54,6 @@ def mesh_spectrum(solution: RadialSolution, n: int) -> MeshSpectrum:
     ------
     InvalidParameterError
         If n is odd or less than 16.
-    TangencyError
-        If psi reaches pi/4 - delta/2.
     """
     require_even(n)
     if n < _LEAST_NODES:

@@ -4,13 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hopper.arguments import checked
 from hopper.arrays import Complex
 from hopper.errors import ConvergenceError
 from hopper.radial.solution import RadialSolution
 from hopper.spectral.matching import by_modulus, relative_changes
-from hopper.stability.collocation import Half, half_matrix, require_even
 from hopper.stability.convergence_filter import require_finer
 from hopper.stability.mesh_spectrum import HALVES
+from hopper.stability.paper_matrix import Half, half_matrix, require_even
 
 
 @dataclass(frozen=True)
@@ -32,6 +33,7 @@ class PaperAbscissa:
     physical: float
 
 
+@checked
 def paper_abscissa(
     solution: RadialSolution, n: int, coarse_n: int, tolerance: float
 ) -> PaperAbscissa:
@@ -41,8 +43,6 @@ def paper_abscissa(
     ------
     InvalidParameterError
         If a mesh is odd or too small, or the meshes are in the wrong order.
-    TangencyError
-        If psi reaches pi/4 - delta/2.
     ConvergenceError
         If nothing is kept.
     """

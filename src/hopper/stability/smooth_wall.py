@@ -14,24 +14,28 @@ from math import asin, cos, pi, sqrt
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy.optimize import brentq
 from scipy.special import hyp1f1, jn_zeros, lpmv
 
+from hopper.arguments import Radians, RealLike, RealRow, checked
 from hopper.arrays import Array, Complex
 from hopper.errors import InvalidParameterError
-from hopper.problem import Geometry, require_angle
+from hopper.problem import Geometry
+from hopper.values import require_angle
 
 ConeVariant = Literal["bessel", "kummer", "legendre"]
 CONE_VARIANTS: tuple[ConeVariant, ...] = ("bessel", "kummer", "legendre")
 
 
-def abscissa(geometry: Geometry, delta: ArrayLike) -> Array:
+@checked
+def abscissa(geometry: Geometry, delta: RealLike) -> Array:
     """Return the abscissa of the line of eigenvalues for ``delta`` in radians, same shape."""
     s = np.sin(np.asarray(delta, dtype=float))
     return (2 - 3 * s) / (1 - s) if geometry == "wedge" else (5 - 9 * s) / (2 * (1 - s))
 
 
+@checked
 def neutral_delta(geometry: Geometry) -> float:
     """Return the delta (radians) at which the abscissa vanishes."""
     return asin(2 / 3) if geometry == "wedge" else asin(5 / 9)
@@ -42,7 +46,8 @@ def crossing_delta() -> float:
     return asin(1 / 3)
 
 
-def wedge_eigenvalues(delta: float, half_angle: float, count: int) -> tuple[Complex, Complex]:
+@checked
+def wedge_eigenvalues(delta: Radians, half_angle: Radians, count: int) -> tuple[Complex, Complex]:
     """Return the eigenvalues (4.7) of the ``count`` lowest sine and cosine modes of a wedge.
 
     Parameters
@@ -68,7 +73,8 @@ def wedge_eigenvalues(delta: float, half_angle: float, count: int) -> tuple[Comp
     return pair(index * pi / half_angle), pair((index - 0.5) * pi / half_angle)
 
 
-def cone_wavenumbers(half_angle: float, count: int, variant: ConeVariant = "legendre") -> Array:
+@checked
+def cone_wavenumbers(half_angle: Radians, count: int, variant: ConeVariant = "legendre") -> Array:
     """Return mu_1 < ... < mu_count of a cone with the given half angle (radians), shape (count,).
 
     Raises
@@ -101,7 +107,8 @@ def cone_wavenumbers(half_angle: float, count: int, variant: ConeVariant = "lege
     return np.array(roots) ** 2
 
 
-def cone_eigenvalues(delta: float, mu: ArrayLike) -> Complex:
+@checked
+def cone_eigenvalues(delta: Radians, mu: RealRow) -> Complex:
     """Return both roots of (4.9) for each mu_n, shape (2 len(mu),); ``delta`` in radians.
 
     Raises
@@ -112,13 +119,14 @@ def cone_eigenvalues(delta: float, mu: ArrayLike) -> Complex:
     require_angle("delta", delta)
     s = np.sin(delta)
     linear = 5 - 9 * s
-    constant = 4 - 20 * s + (1 + s) * np.asarray(mu, dtype=float)
+    constant = 4 - 20 * s + (1 + s) * np.asarray(mu)
     root = np.emath.sqrt(linear**2 - 4 * (1 - s) * constant)
     pairs = np.concatenate([linear + root, linear - root]) / (2 * (1 - s))
     return pairs.astype(np.complex128)
 
 
-def oscillation_threshold(half_angle: ArrayLike) -> Array:
+@checked
+def oscillation_threshold(half_angle: RealLike) -> Array:
     """Return f(theta_w): the least sin(delta) at which an eigenvalue of (4.9) is real.
 
     ``half_angle`` in radians, below :func:`largest_distinct_half_angle`.

@@ -7,52 +7,89 @@ V = Q R, exp(-t M) acts on their span as R exp(elapsed Lambda) R^-1, and
 
 where alpha is the largest real part and kappa(V) = ||V|| ||V^-1|| for columns of unit norm. Both
 parities are orthogonal to each other in both norms, so each is treated by itself.
+
+Norms depend on the frame, t = log r or tilted time, and on the unknowns. What the paper drew is in
+its own, with unknowns (sigma1, psi1 / psi_scale); numbers for one hopper are in tilted time.
 """
 
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from hopper.arrays import Array
+from hopper.arguments import Positive, checked
+from hopper.arrays import Array, Complex
 from hopper.errors import InvalidParameterError
+from hopper.problem import Hopper
+from hopper.radial.grid import Grid, disc_weights, half_grid
 from hopper.radial.solution import RadialSolution
-from hopper.spectral import chebyshev
 from hopper.spectral.transient import ModalBasis, basis_of
-from hopper.stability.collocation import Half, half_matrix
+from hopper.stability.collocation import Parity, mode_grid, tilted_matrix
+from hopper.stability.paper_matrix import Half, half_matrix
 
 Norm = Literal["discrete", "L2"]
 NORMS: tuple[Norm, ...] = ("discrete", "L2")
 
 
-def half_weights(m: int, norm: Norm) -> Array:
-    """Return the weights, shape (2 m - 1,), of the norm on a half grid of ``m`` nodes.
+@checked
+def half_weights(hopper: Hopper, m: int, norm: Norm) -> Array:
+    """Return the weights, shape (2 m - 1,), of a norm of (sigma1, psi1) on a half grid of m nodes.
 
-    ``discrete`` is the 2-norm of nodal values, presumably the paper's; ``L2`` has
-    Clenshaw-Curtis weights, for theta / theta_w in [-1, 1].
+    ``discrete`` is the 2-norm of nodal values, presumably the paper's. ``L2`` is that over the
+    hopper's cross-section, theta / theta_w in [-1, 1]: in cones with the weight sin(theta), without
+    which growth is not bounded, because waves focus on the axis.
 
     Raises
     ------
     InvalidParameterError
         If the norm is unknown.
     """
-    if norm == "discrete":
-        return np.full(2 * m - 1, 2.0)
-    if norm == "L2":
-        weights = 2 * chebyshev.clenshaw_curtis_weights(2 * m)[m:]
-        return np.concatenate([weights, weights[:-1]])
-    raise InvalidParameterError(f"norm = {norm!r} is unknown: use one of {', '.join(NORMS)}")
+    grid = half_grid(m, hopper.half_angle)
+    return np.full(2 * m - 1, 2.0) if norm == "discrete" else _l2_weights(hopper, grid)
 
 
+def _l2_weights(hopper: Hopper, grid: Grid) -> Array:
+    weights = 2 * grid.weights / hopper.half_angle
+    if hopper.curvature:
+        weights = 2 * disc_weights(grid) / (hopper.half_angle * np.sin(hopper.half_angle))
+    first = int(grid.centred)
+    return np.concatenate([weights[first:], weights[:-1]])
+
+
+@checked
+def tilted_basis(solution: RadialSolution, m: int, parity: Parity, kept: Complex) -> ModalBasis:
+    """Return the basis of kept modes of one parity in tilted time, in the norm L2.
+
+    Parameters
+    ----------
+    solution : RadialSolution
+        Of a Mohr-Coulomb material.
+    m : int
+        Points of the half grid.
+    parity : "symmetric" or "asymmetric"
+        Of the disturbances.
+    kept : complex array, shape (k,)
+        Eigenvalues to keep, closed under conjugation.
+
+    Raises
+    ------
+    InvalidParameterError
+        If nothing is kept, or an eigenvalue is not one of this mesh.
+    """
+    grid = mode_grid(solution, m, parity)
+    weights = _l2_weights(solution.hopper, grid)
+    return basis_of(tilted_matrix(solution, m, parity), weights, _some(kept, parity))
+
+
+@checked
 def modal_basis(
     solution: RadialSolution,
     n: int,
     half: Half,
-    kept: ArrayLike,
+    kept: Complex,
     norm: Norm = "L2",
-    psi_scale: float = 1.0,
+    psi_scale: Positive = 1.0,
 ) -> ModalBasis:
-    """Return the basis of the kept modes of one parity on a mesh of ``n`` nodes.
+    """Return the basis of the kept modes of one parity in the paper's frame, on ``n`` nodes.
 
     Parameters
     ----------
@@ -73,13 +110,14 @@ def modal_basis(
     ------
     InvalidParameterError
         If nothing is kept, an eigenvalue is not one of this mesh, or the norm is unknown.
-    TangencyError
-        If psi reaches pi/4 - delta/2.
     """
-    wanted = np.asarray(kept, dtype=complex)
-    if wanted.size == 0:
-        raise InvalidParameterError(
-            f"no {half} eigenvalue is kept: widen the filter's tolerance or use finer meshes"
-        )
     matrix = half_matrix(solution, n // 2, half, psi_scale)
-    return basis_of(matrix, half_weights(n // 2, norm), wanted)
+    return basis_of(matrix, half_weights(solution.hopper, n // 2, norm), _some(kept, half))
+
+
+def _some(kept: Complex, parity: str) -> Complex:
+    if kept.size == 0:
+        raise InvalidParameterError(
+            f"no {parity} eigenvalue is kept: widen the filter's tolerance or use finer meshes"
+        )
+    return kept

@@ -1,0 +1,121 @@
+"""What a schema cannot say of config.yaml: relations between two values."""
+
+import math
+from collections.abc import Iterator, Mapping
+from math import atan, radians
+from typing import Any
+
+from hopper.errors import InvalidParameterError, WallFrictionError
+from hopper.yield_conditions import yield_condition
+
+Violation = tuple[str, str]
+
+
+def violations(config: Mapping[str, Any]) -> Iterator[Violation]:
+    """Yield key and problem of each contradiction in a configuration that the schema allows."""
+    for key, section in _sections(config, ""):
+        yield from _mesh(key, section)
+        yield from _range(key, section)
+    yield from _drawing(config)
+    yield from _counts(config)
+    yield from _names(config["cases"])
+    for key, case in _hoppers(config):
+        yield from _wall(key, **case)
+
+
+def _sections(value: Any, key: str) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """Yield every mapping of a configuration, with its key."""
+    if isinstance(value, Mapping):
+        yield key, value
+        for name, item in value.items():
+            yield from _sections(item, f"{key}.{name}" if key else name)
+
+
+def _mesh(key: str, section: Mapping[str, Any]) -> Iterator[Violation]:
+    coarse, nodes = section.get("coarse_nodes", -1), section.get("nodes", 0)
+    if coarse >= nodes:
+        problem = f"{coarse} is not below nodes = {nodes}: the first mesh must be the finer one"
+        yield f"{key}.coarse_nodes", problem
+
+
+def _range(key: str, section: Mapping[str, Any]) -> Iterator[Violation]:
+    if "stop" not in section:
+        return
+    start, stop = section.get("start", -math.inf), section["stop"]
+    if isinstance(stop, str):
+        return
+    if stop <= start:
+        yield f"{key}.stop", f"{stop} must be above start"
+    elif section.get("step", 0) > stop - start:
+        yield f"{key}.step", f"{section['step']} must not exceed stop - start = {stop - start:g}"
+
+
+def _drawing(config: Mapping[str, Any]) -> Iterator[Violation]:
+    """Check what is drawn: the particle and the zone inside the hopper, colours in order."""
+    for key, name, hopper in (
+        ("fig_1_1", "theta_deg", config["fig_1_1"]),
+        ("fig_3_2", "stagnant_from_deg", config["radial"]["fig_3_2"]),
+    ):
+        angle = config[key][name]
+        if angle >= hopper["half_angle_deg"]:
+            yield f"{key}.{name}", f"{angle} must be below half_angle_deg"
+    linear, largest = config["fig_4_5_map"]["color_range"]
+    if linear >= largest:
+        yield "fig_4_5_map.color_range", f"{linear} must be below {largest}"
+
+
+def _counts(config: Mapping[str, Any]) -> Iterator[Violation]:
+    chunks, rows = (config["stability_map"][key] for key in ("chunks", "delta_deg"))
+    if chunks > rows["points"]:
+        yield "stability_map.chunks", f"{chunks} is more than delta_deg has points"
+    smooth = config["claims"]["linear"]["smooth"]
+    if smooth["nodes"] <= 2 * smooth["modes"]:
+        yield "claims.linear.smooth.nodes", f"{smooth['nodes']} must be more than twice the modes"
+
+
+def _names(cases: list[dict[str, Any]]) -> Iterator[Violation]:
+    names: set[str] = set()
+    for index, case in enumerate(cases):
+        if case["name"] in names:
+            yield f"cases[{index}].name", f"{case['name']} is taken: give another name"
+        names.add(case["name"])
+
+
+def _hoppers(config: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Yield every hopper with one wall friction, and its key."""
+    for name, case in config["radial"].items():
+        # The claims ledger solves the hopper of Figure 3.2 at every friction of section 3.
+        for hopper in (case, config["radial"]["fig_3_2"]):
+            for model in hopper["models"]:
+                for index, mu in enumerate(case["mu"]):
+                    at = {"model": model, "mu": mu, "at": f"mu[{index}]"}
+                    yield f"radial.{name}", {**hopper, **at}
+    for name, case in config["spectra"].items():
+        yield f"spectra.{name}", case
+    linear = config["claims"]["linear"]
+    printed_at = {**config["spectra"][linear["spectrum"]], "mu": linear["printed_at"]["mu"]}
+    yield "claims.linear.printed_at", printed_at
+    for index, case in enumerate(config["cases"]):
+        yield f"cases[{index}]", case
+
+
+def _wall(
+    key: str,
+    *,
+    delta_deg: float,
+    mu: float,
+    geometry: str = "cone",
+    model: str = "mohr-coulomb",
+    at: str = "mu",
+    **_: Any,
+) -> Iterator[Violation]:
+    """Check that the model is formulated for the geometry, and transmits the wall friction."""
+    if model == "von-mises" and geometry == "wedge":
+        name = "model" if at == "mu" else "models"
+        yield f"{key}.{name}", "von-mises is formulated for cones only"
+    try:
+        yield_condition(model).wall_angle(radians(delta_deg), atan(mu))
+    except WallFrictionError as error:
+        yield f"{key}.{at}", str(error)
+    except InvalidParameterError as error:  # an angle so small that it is none in radians
+        yield f"{key}.delta_deg", str(error)

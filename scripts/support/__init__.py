@@ -1,1 +1,0 @@
-"""What the scripts share: artifacts, provenance, logs, configuration, plots. No mathematics."""

@@ -1,0 +1,122 @@
+"""Sign changes and jumps of a function that is known at points only, and not continuous.
+
+The spectral abscissa by the paper's algorithm is such a function of the hopper: it jumps where an
+eigenvalue enters or leaves what two meshes agree on.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from hopper.arguments import checked
+from hopper.arrays import Array
+from hopper.brief import brief
+from hopper.errors import InvalidParameterError
+
+# A step that this times as much as its neighbours' slopes explain is a jump.
+_STEEP = 5
+# A step is no kink's, which lies between its neighbours, if it is this much off their mean.
+_UNLIKE = 1
+# How many steps a bracket of a sign change, and each of its neighbours, is divided into.
+_PARTS = 3
+
+
+@dataclass(frozen=True)
+class Change:
+    """Where a function changes sign or jumps: between ``place`` - ``error`` and + ``error``.
+
+    ``before`` and ``after`` are its values there, ``jump`` whether it is discontinuous as far as
+    steps of that width tell.
+    """
+
+    place: float
+    error: float
+    before: float
+    after: float
+    jump: bool
+
+    __repr__ = brief("place", "before", "after", "jump")
+
+
+@checked
+def sign_changes(
+    function: Callable[[float], float], places: ArrayLike, width: float
+) -> list[Change]:
+    """Return the sign changes of a function, and its jumps in their neighbourhood.
+
+    Parameters
+    ----------
+    function : callable
+        NaN where it has no value.
+    places : array, shape (n,)
+        Increasing, at least two; two changes between neighbours, or a jump without a change of sign
+        further than a step from one with, may be missed.
+    width : float
+        Largest distance between the ends of a bracket.
+
+    Raises
+    ------
+    InvalidParameterError
+        If there are fewer than two places, they do not increase, or the width is not positive.
+    """
+    grid = np.asarray(places, dtype=float)
+    if grid.ndim != 1 or grid.size < 2 or not np.all(np.diff(grid) > 0):
+        raise InvalidParameterError("places must be two or more increasing numbers")
+    if not width > 0:
+        raise InvalidParameterError(f"width = {width:g} must be positive")
+    function = cache(function)  # an evaluation is dear, and neighbourhoods share places
+    values = np.array([function(float(x)) for x in grid])
+    found: dict[float, Change] = {}
+    for i in map(int, np.flatnonzero(_crossed(values))):
+        first, last = max(i - 1, 0), min(i + 2, grid.size - 1)
+        x = np.linspace(grid[first], grid[last], _PARTS * (last - first) + 1)
+        y = np.array([function(float(place)) for place in x])
+        for j in np.flatnonzero(_crossed(y) | _irregular(np.diff(y))):
+            change = _narrowed(function, x, y, int(j), width)
+            if change.jump or (change.before > 0) != (change.after > 0):
+                found[change.place] = change
+    return sorted(found.values(), key=lambda change: change.place)
+
+
+def _crossed(values: Array) -> NDArray[np.bool_]:
+    known, positive = np.isfinite(values), values > 0
+    return known[:-1] & known[1:] & (positive[:-1] != positive[1:])
+
+
+def _irregular(steps: Array) -> NDArray[np.bool_]:
+    """Return which steps of equal length are unlike both neighbours; these may differ by a kink."""
+    before, after = steps[:-2], steps[2:]
+    found = np.zeros(steps.size, dtype=bool)
+    found[1:-1] = np.abs(steps[1:-1] - (before + after) / 2) > _UNLIKE * np.abs(before - after)
+    return found & (np.abs(steps) > 0)
+
+
+def _narrowed(
+    function: Callable[[float], float], x: Array, y: Array, at: int, width: float
+) -> Change:
+    """Halve the interval from ``at`` to the next point down to a width, or to a gap."""
+    slopes = np.diff(y) / np.diff(x)
+    beside = np.delete(slopes[max(at - 1, 0) : at + 2], min(at, 1))
+    beside = beside[np.isfinite(beside)]
+    slope = float(beside.mean()) if beside.size else 0.0
+    left, right, low, high = (float(one) for one in (x[at], x[at + 1], y[at], y[at + 1]))
+    signs = (low > 0) != (high > 0)
+    while right - left > width:
+        middle = (left + right) / 2
+        value = function(middle)
+        if not np.isfinite(value):
+            break
+        if signs:
+            first = (low > 0) != (value > 0)
+        else:
+            rise = slope * (middle - left)
+            first = abs(value - low - rise) > abs(high - value - rise)
+        if first:
+            right, high = middle, value
+        else:
+            left, low = middle, value
+    steep = _STEEP * float(np.abs(beside).max(initial=0)) * (right - left)
+    return Change((left + right) / 2, (right - left) / 2, low, high, abs(high - low) > steep)

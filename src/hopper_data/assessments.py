@@ -1,0 +1,109 @@
+"""What an answer about one hopper consists of: one list for text, JSON, files and figures."""
+
+from typing import Any, get_args
+
+from hopper.assessment.radial import RadialAssessment
+from hopper.assessment.stability import StabilityAssessment
+from hopper.assessment.summary import OUTCOMES, Assessment
+from hopper.radial.friction_limit import End
+from hopper_data.radial import STRESS, THETA, angles
+from hopper_data.stability import GOVERNED_BY, PARITY, eigenvalues
+from hopper_data.tables import Table, angle, flag, number, within
+
+Part = RadialAssessment | StabilityAssessment
+
+RADIAL: Table = (
+    number("sigma_axis", "average stress on the axis", scale="rho g r"),
+    number("sigma_wall", "average stress at the wall", scale="rho g r"),
+    number("psi_wall", "Sokolovskii angle psi at the wall", units="radian"),
+    number("psi_max", "largest psi", units="radian"),
+    angle("theta_psi_max_deg", "polar angle of the largest psi", source="theta_psi_max"),
+    number("u_wall", "velocity at the wall", scale="u(0)"),
+    number("flow_factor", "flow factor"),
+    number("solutions", "number of radial solutions for this wall"),
+)
+PROFILES: Table = (*THETA, *STRESS, number("u", "radial velocity", "theta", scale="u(0)"))
+TANGENCY: Table = (
+    number("mu_tangency", "mu beyond which r = const is no surface for data", source="tangency"),
+)
+LIMITS: Table = (
+    number("mu_fold", "mu at the fold", source="fold"),
+    number("mu_limit", "largest mu with a radial solution", source="coefficient"),
+    angle("mass_flow_limit_deg", "mass-flow limit of phi", source="mass_flow"),
+    *TANGENCY,
+)
+STABILITY: Table = (
+    number("line", "asymptotic line of Re(lambda)"),
+    number("abscissa", "supremum of Re(lambda)"),
+    number("abscissa_symmetric", "the same, symmetric disturbances", source="symmetric"),
+    number("abscissa_asymmetric", "the same, asymmetric disturbances", source="asymmetric"),
+    number(
+        "transient_amplification",
+        "amplification, tilted time, L2",
+        source="transient.amplification",
+        scale="exp(-t abscissa)",
+    ),
+    number(
+        "transient_growth", "largest norm of exp(-tM), tilted time, L2", source="transient.growth"
+    ),
+    number("kappa", "condition of the modes, tilted time, L2", source="transient.condition"),
+    number("transient_modes", "number of symmetric modes followed", source="transient.modes"),
+)
+SPECTRUM: Table = within("spectrum", eigenvalues("symmetric"))
+NEUTRAL: Table = (
+    angle("delta_neutral_deg", "smallest neutral angle of internal friction", source="delta"),
+)
+# The governor's names are those of the result within.
+STABILITY_WHOLE: Table = (
+    *SPECTRUM,
+    *within("modes.asymmetric", eigenvalues("low asymmetric", "asymmetric_")),
+    *within("result", (GOVERNED_BY, PARITY)),
+    *STABILITY,
+)
+WHOLE: Table = (
+    flag("outcome", "verdict of stability, or why there is none", OUTCOMES),
+    *within("profiles", PROFILES),
+    *within("radial", RADIAL),
+    *within("stability", STABILITY_WHOLE),
+    flag(
+        "limit_end",
+        "what ends the solutions at mu_limit",
+        get_args(End),
+        source="limits.friction.end",
+    ),
+    *within("limits", LIMITS),
+)
+
+
+def profiles(radial: RadialAssessment) -> dict[str, Any]:
+    """Return theta (radians), sigma, psi (radians) and u of a radial solution, by these names.
+
+    Over [-theta_w, theta_w], of one shape; u is None where the velocity is not known.
+    """
+    theta = angles(radial.solution.hopper.half_angle)
+    return dict(zip(("theta", "sigma", "psi", "u"), (theta, *radial.profiles(theta)), strict=True))
+
+
+def arrays(found: Part) -> tuple[Any, Table]:
+    """Return the arrays of a part of an assessment and the table that describes them."""
+    if isinstance(found, RadialAssessment):
+        return profiles(found), PROFILES
+    return found, SPECTRUM
+
+
+def described(found: Part | Assessment) -> tuple[Any, Table]:
+    """Return all that a part of an assessment, or a whole one, holds, and its table."""
+    if isinstance(found, RadialAssessment):
+        return {"profiles": profiles(found), "radial": found}, (
+            *within("profiles", PROFILES),
+            *within("radial", RADIAL),
+        )
+    if isinstance(found, StabilityAssessment):
+        return found, STABILITY_WHOLE
+    return {**vars(found), "profiles": found.radial and profiles(found.radial)}, WHOLE
+
+
+def comment(found: Assessment) -> dict[str, str]:
+    """Return why parts of an assessment do not exist, as the attribute `comment`, if any."""
+    reasons = [*(found.radial.notes if found.radial else ()), *filter(None, [found.reason])]
+    return {"comment": "; ".join(reasons)} if reasons else {}

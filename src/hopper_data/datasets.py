@@ -1,0 +1,79 @@
+"""From a result and a table that describes it to a dataset of CF variables."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from hopper.quantity import Quantity
+from hopper_data.tables import Variable, number, parts
+
+CfVariable = tuple[tuple[str, ...], Any, dict[str, Any]]
+
+
+def dataset(
+    result: Any,
+    table: Iterable[Variable],
+    coordinates: Iterable[Variable] = (),
+    leading: str = "",
+    attributes: Mapping[str, Any] | None = None,
+) -> xr.Dataset:
+    """Return a dataset in the form of CF files: flags as codes, complex numbers in two parts.
+
+    What is None in the result is left out; a quantity is followed by its error.
+
+    Parameters
+    ----------
+    result : object or mapping
+        Where the sources of the variables lead from.
+    table, coordinates : iterables of Variable
+        Data and coordinates.
+    leading : str
+        Dimensions in front of those of every variable in ``table``, separated by spaces.
+    attributes : mapping, optional
+        Global attributes.
+    """
+    data = _variables(result, table, tuple(leading.split()))
+    return xr.Dataset(data, _variables(result, coordinates, ()), attributes)
+
+
+def _variables(
+    result: Any, table: Iterable[Variable], leading: tuple[str, ...]
+) -> dict[str, CfVariable]:
+    found: dict[str, CfVariable] = {}
+    for variable in table:
+        values = variable.of(result)
+        if values is not None:
+            found |= _described(variable, values, leading + tuple(variable.over.split()))
+    return found
+
+
+def _described(variable: Variable, values: Any, over: tuple[str, ...]) -> dict[str, CfVariable]:
+    if isinstance(values, Quantity):
+        error = number(f"{variable.name}_error", f"error estimate of {variable.name}")
+        return _described(variable, values.value, over) | _described(
+            replace(error, units=variable.units), values.error, over
+        )
+    found: dict[str, CfVariable] = {}
+    for part, numbers in parts(variable, values):
+        attributes: dict[str, Any] = {"long_name": part.long_name}
+        if part.kind == "flag":
+            numbers = _codes(numbers, part.meanings)
+            attributes["flag_values"] = np.arange(len(part.meanings), dtype=np.int8)
+            words = [word.replace(" ", "_") for word in part.meanings]
+            attributes["flag_meanings"] = " ".join(words)
+        elif part.kind != "text":
+            attributes["units"] = part.units
+        found[part.name] = over, numbers, attributes
+    return found
+
+
+def _codes(values: Any, meanings: tuple[str, ...]) -> np.ndarray:
+    codes = np.asarray(values)
+    if codes.dtype.kind in "UO":
+        codes = np.reshape(
+            [meanings.index(str(word or "none")) for word in codes.flat], codes.shape
+        )
+    return codes.astype(np.int8)

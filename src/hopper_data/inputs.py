@@ -1,0 +1,90 @@
+"""A hopper as people give it: names, and angles in degrees."""
+
+from dataclasses import asdict, dataclass
+from math import atan, degrees, radians, tan
+from typing import Any, Self
+
+from hopper.problem import Hopper, as_geometry
+from hopper.radial.solution import RadialSolution, solve_radial
+from hopper.yield_conditions import yield_condition
+
+
+def hopper_of(
+    geometry: str, delta_deg: float, half_angle_deg: float, model: str = "mohr-coulomb"
+) -> Hopper:
+    """Return the hopper for the numerics, in radians.
+
+    Raises
+    ------
+    InvalidParameterError
+        If a value is out of range or the combination is not modelled.
+    """
+    angles = radians(delta_deg), radians(half_angle_deg)
+    return Hopper(as_geometry(geometry), *angles, yield_condition(model))
+
+
+def solution_of(
+    geometry: str, delta_deg: float, half_angle_deg: float, mu: float, model: str = "mohr-coulomb"
+) -> RadialSolution:
+    """Return the radial solution of the physical branch, as :func:`hopper_of`."""
+    return solve_radial(hopper_of(geometry, delta_deg, half_angle_deg, model), atan(mu))
+
+
+@dataclass(frozen=True)
+class Wall:
+    """Wall friction, both as coefficient ``mu`` = tan(phi) and as angle ``phi_deg`` (degrees)."""
+
+    mu: float
+    phi_deg: float
+
+    @classmethod
+    def of(cls, mu: float | None = None, phi_deg: float | None = None) -> Self:
+        """Return the wall of the one that is given."""
+        if phi_deg is not None:
+            return cls(tan(radians(phi_deg)), phi_deg)
+        if mu is None:
+            raise TypeError("give mu or phi_deg")
+        return cls(mu, degrees(atan(mu)))
+
+    @property
+    def friction_angle(self) -> float:
+        """Phi, radians."""
+        return atan(self.mu)
+
+    def __str__(self) -> str:
+        """Return both, rounded."""
+        return f"mu = {self.mu:.6g} (phi = {self.phi_deg:.6g} deg)"
+
+
+@dataclass(frozen=True)
+class Case:
+    """A hopper, its material (angles in degrees) and its wall."""
+
+    geometry: str
+    model: str
+    delta_deg: float
+    half_angle_deg: float
+    wall: Wall
+
+    @property
+    def hopper(self) -> Hopper:
+        """The hopper for the numerics, in radians.
+
+        Raises
+        ------
+        InvalidParameterError
+            If a value is out of range or the combination is not modelled.
+        """
+        return hopper_of(self.geometry, self.delta_deg, self.half_angle_deg, self.model)
+
+    def echoed(self) -> dict[str, Any]:
+        """Return the inputs by their keys in JSON and netCDF."""
+        inputs = asdict(self)
+        return inputs | inputs.pop("wall")
+
+    def __str__(self) -> str:
+        """Return everything in one line."""
+        return (
+            f"{self.geometry}, {self.model}, delta {self.delta_deg:.6g} deg, half angle "
+            f"{self.half_angle_deg:.6g} deg, {self.wall}"
+        )
