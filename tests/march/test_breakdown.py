@@ -21,13 +21,7 @@ from hopper.march.tops import (
     scaled,
 )
 from hopper.stability.asymptotic_line import asymptotic_line
-from tests.march.witnesses import (
-    REFERENCE,
-    base,
-    base_of_case,
-    name_of_case,
-    top_of_case,
-)
+from tests.march.witnesses import REFERENCE, base, base_of_case, name_of_case, top_of_case
 
 BREAKDOWN = REFERENCE["breakdown"]
 # The shortest ones of either geometry and either kind of data.

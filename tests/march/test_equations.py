@@ -9,14 +9,7 @@ import pytest
 import sympy as sp  # type: ignore[import-untyped]
 
 from hopper.march.base import base_of, base_state, base_table, radial_fields, tilt_height
-from hopper.march.equations import (
-    both_families,
-    coefficients,
-    psi_factor,
-    ray_slopes,
-    terms,
-    tilt,
-)
+from hopper.march.equations import both_families, coefficients, psi_factor, ray_slopes, terms, tilt
 from hopper.problem import Hopper
 from tests.march.witnesses import BEYOND, base
 

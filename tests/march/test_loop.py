@@ -8,17 +8,10 @@ import pytest
 
 from hopper.evidence.motion import stress
 from hopper.march.base import base_of, radial_fields, tilt_height
-from hopper.march.fields import (
-    deviations,
-    interpolated,
-    momentum_residual,
-    state_at,
-    stress_of,
-)
+from hopper.march.fields import deviations, interpolated, momentum_residual, state_at, stress_of
 from hopper.march.loop import corner_defect, jacobian, make_loop, march_loop, rate, step
 from hopper.march.mapped import mesh
 from hopper.march.tops import Top, bump_of_psi, bump_of_sigma, one_sided_bump, scaled
-from hopper.stability.collocation import half_matrix
 from hopper.stability.modes import linear_stability
 from hopper.yield_conditions import MOHR_COULOMB
 from tests.march.witnesses import (
@@ -182,7 +175,7 @@ def test_small_deviations_are_linear_modes(case, which):
     """For eps = 1e-7 they follow exp(lambda tau), to what the deviation squared leaves."""
     under, size, tau = base(*case), 1e-7, 0.5
     eigenvalue = linear_stability(under.solution).eigenvalues[which]
-    mode = linear_mode(half_matrix(under.solution, 40), eigenvalue, physical=True)
+    mode = linear_mode(under.solution, eigenvalue)
     history = on_loop(under, mode_as_top(mode, size, symmetric=True), 64, tau)
     found = np.stack(deviations(history.loop, history.w[-1], X))
     expected = size * np.stack(mode(under, X, tau))
@@ -193,9 +186,7 @@ def test_small_deviations_are_linear_modes(case, which):
 def test_small_deviations_without_symmetry():
     """sigma1 odd, psi1 even, in a wedge; the eigenvalue is published."""
     under, size, tau = base("wedge", 45, 30, tan(radians(15))), 1e-7, 1.0
-    mode = linear_mode(
-        half_matrix(under.solution, 40, "mirrored"), -0.2953342981 + 5.5191492336j, physical=False
-    )
+    mode = linear_mode(under.solution, -0.2953342981 + 5.5191492336j, "asymmetric")
     history = on_loop(under, mode_as_top(mode, size, symmetric=False), 64, tau)
     x = np.linspace(-1, 1, 41)
     found = np.stack(deviations(history.loop, history.w[-1], x))
@@ -221,7 +212,7 @@ def test_deviation_from_the_linear_mode_is_quadratic():
     """(march - eps mode) / eps**2 tends to a limit with an O(eps) change."""
     under, tau = base("wedge", 38, 17, 0.12), 0.3
     eigenvalue = linear_stability(under.solution).eigenvalues[1]
-    mode = linear_mode(half_matrix(under.solution, 40), eigenvalue, physical=True)
+    mode = linear_mode(under.solution, eigenvalue)
 
     def excess(size):
         history = on_loop(under, mode_as_top(mode, size, symmetric=True), 64, tau)

@@ -195,7 +195,7 @@ def test_growth_and_loop_time_of_a_loop(case):
     under = base(*case)
     loop, line = make_loop(under, 64, 1), asymptotic_line(under.solution)
     assert loop_time(loop) == pytest.approx(2 * np.pi / line.spacing, rel=1e-10)
-    stability = linear_stability(under.solution)
+    stability = linear_stability(under.solution, "symmetric")
     highest = max(stability.eigenvalues.real.max(), stability.abscissa)
     assert linear_growth(loop) == pytest.approx(highest, abs=1e-3)
 

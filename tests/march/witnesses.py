@@ -11,8 +11,11 @@ from hopper.march.base import Base, base_of
 from hopper.march.loop import History, make_loop, march_loop
 from hopper.march.tops import Top, bump_of_psi, bump_of_sigma, riemann_deviation
 from hopper.problem import Geometry, Hopper
+from hopper.radial.grid import half_grid
 from hopper.radial.solution import solve_radial
 from hopper.spectral import chebyshev
+from hopper.stability.collocation import Parity, mode_grid, tilted_matrix
+from hopper.stability.tilted import tilt
 
 # First crossings, fields and thresholds of a prototype of the march (discontinuous Galerkin and
 # net, each checked against the other); `error` is what they differ by.
@@ -45,25 +48,30 @@ def on_loop(under: Base, top: Top, points: int, tau_end: float) -> History:
     return march_loop(loop, np.stack([w[0], w[1, ::-1]])[: loop.legs], tau_end)
 
 
-def linear_mode(matrix, eigenvalue: complex, physical: bool):
+def linear_mode(solution, eigenvalue: complex, parity: Parity = "symmetric"):
     """Return the mode nearest to an eigenvalue, as a function of base, x and tau.
 
-    ``matrix`` is that of :func:`hopper.stability.collocation.half_matrix`; the function returns
-    the deviations of log sigma and psi of a mode whose largest sigma1 is 1 at tau = 0.
+    The function returns the deviations of log sigma and psi of a mode whose largest sigma1 is 1 at
+    tau = 0. Collocation finds the mode in tilted time.
     """
-    m = (len(matrix) + 1) // 2
-    values, vectors = np.linalg.eig(matrix)
+    m, centred = 40, parity == "asymmetric"
+    grid = mode_grid(solution, m, parity)
+    values, vectors = np.linalg.eig(tilted_matrix(solution, m, parity))
     which = int(np.argmin(np.abs(values - eigenvalue)))
-    parts = vectors[:m, which], np.append(vectors[m:, which], 0)
-    parities: tuple[chebyshev.Parity, ...] = ("even", "odd") if physical else ("odd", "even")
+    inner = np.split(vectors[:, which], [m - centred])
+    parts = np.append(np.zeros(int(centred)), inner[0]), np.append(inner[1], 0)
+    parities: tuple[chebyshev.Parity, ...] = ("odd", "even") if centred else ("even", "odd")
+    _, height = tilt(solution, m)
 
     def at(under: Base, x, tau: float = 0.0):
-        size = np.exp(values[which] * tau) / np.abs(parts[0]).max()
+        theta = under.hopper.half_angle * x
+        h = half_grid(m, under.hopper.half_angle).interpolation(theta, "even") @ height
+        size = np.exp(values[which] * (tau - h)) / np.abs(parts[0]).max()
         sigma1, psi1 = (
-            size * (chebyshev.half_interpolation_matrix(m, x, parity) @ part)
+            size * (grid.interpolation(theta, parity) @ part)
             for parity, part in zip(parities, parts, strict=True)
         )
-        sigma, _, _, _ = under.solution.fields(under.hopper.half_angle * np.abs(x))
+        sigma, _, _, _ = under.solution.fields(np.abs(theta))
         return (sigma1 / sigma).real, psi1.real
 
     return at

@@ -1,17 +1,20 @@
 """The radial field under a march: its states on the loop, in time or tilted time."""
 
 from dataclasses import dataclass
+from math import degrees
 
 import numpy as np
 
+from hopper.arguments import checked
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.errors import InvalidParameterError, TangencyError
 from hopper.march.equations import Coefficients, coefficients, terms, tilt
 from hopper.problem import Hopper
 from hopper.radial.grid import half_grid
 from hopper.radial.solution import RadialSolution
 from hopper.spectral import chebyshev
-from hopper.stability.linearisation import require_no_tangency
+from hopper.stability.tilted import first_tangency
 from hopper.yield_conditions import MOHR_COULOMB
 
 # Cells and degree of the piecewise polynomials of a table: an error of 1e-12 where layers at the
@@ -32,6 +35,14 @@ class Base:
     solution: RadialSolution
     tilted: bool
 
+    __repr__ = brief(
+        "hopper.geometry",
+        "hopper.delta deg",
+        "hopper.half_angle deg",
+        "solution.friction_angle deg",
+        "tilted",
+    )
+
     @property
     def hopper(self) -> Hopper:
         """The hopper."""
@@ -50,6 +61,8 @@ class BaseState:
     a: Array
     d: Array
 
+    __repr__ = brief("y deg", "psi deg")
+
 
 @dataclass(frozen=True, eq=False)
 class BaseTable:
@@ -60,6 +73,8 @@ class BaseTable:
 
     half_angle: float
     powers: Array
+
+    __repr__ = brief("half_angle deg")
 
     def __call__(self, theta: Array) -> tuple[Array, Array]:
         """Return psi and 1 / sigma at ``theta`` (radians, in [0, theta_w]), shapes (n,)."""
@@ -73,6 +88,7 @@ class BaseTable:
         return psi, light
 
 
+@checked
 def base_of(solution: RadialSolution, tilted: bool | None = None) -> Base:
     """Return the base of a march; time is tilted where it must be, unless told.
 
@@ -87,22 +103,24 @@ def base_of(solution: RadialSolution, tilted: bool | None = None) -> Base:
         raise InvalidParameterError(
             "the stress march is formulated for Mohr-Coulomb materials only: use mohr-coulomb"
         )
-    if not tilted:
-        try:
-            require_no_tangency(solution)
-        except TangencyError:
-            if tilted is not None:
-                raise
-            tilted = True
-    return Base(solution, bool(tilted))
+    tangency = first_tangency(solution)
+    if tilted is False and tangency is not None:
+        raise TangencyError(
+            f"psi of the radial field reaches pi/4 - delta/2 at theta = {degrees(tangency):.6g} "
+            "deg: use tilted time",
+            tangency,
+        )
+    return Base(solution, tangency is not None if tilted is None else tilted)
 
 
+@checked
 def radial_fields(base: Base, theta: Array) -> tuple[Array, Array]:
     """Return sigma, exactly even, and psi, exactly odd in ``theta`` (radians, shape (n,))."""
     sigma, psi, _, _ = base.solution.fields(np.abs(theta))
     return sigma, np.copysign(1.0, theta) * psi
 
 
+@checked
 def base_state(base: Base, y: Array) -> BaseState:
     """Return the radial field at points ``y`` of a leg (radians, shape (n,), not 0 in a cone)."""
     sigma, psi = radial_fields(base, y)
@@ -112,6 +130,7 @@ def base_state(base: Base, y: Array) -> BaseState:
     return BaseState(y, psi, light, at, *terms(at, np.tan(psi), light))
 
 
+@checked
 def base_table(base: Base) -> BaseTable:
     """Return psi and 1 / sigma of the radial field as piecewise polynomials."""
     z = np.cos(np.pi * (np.arange(_DEGREE + 1) + 0.5) / (_DEGREE + 1))
@@ -122,6 +141,7 @@ def base_table(base: Base) -> BaseTable:
     return BaseTable(base.hopper.half_angle, np.ascontiguousarray(powers))
 
 
+@checked
 def tilt_height(base: Base, theta: Array) -> Array:
     """Return h (even) at ``theta`` (radians, shape (n,)); 0 where time is not tilted."""
     if not base.tilted:

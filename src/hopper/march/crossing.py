@@ -12,6 +12,7 @@ from typing import Literal
 import numpy as np
 
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.march.net import SLOPES, TAU, THETA, Net, rows
 
 # Rows through whose gaps the crossing of a pair is interpolated, and neighbours of the first pair
@@ -49,6 +50,8 @@ class Crossing:
     family: Literal[1, -1]
     error: float
 
+    __repr__ = brief("tau", "error", "theta deg", "family")
+
 
 @dataclass(frozen=True)
 class NetVerdict:
@@ -61,6 +64,8 @@ class NetVerdict:
     crossing: Crossing | None
     converging: bool
     first_tau: float | None
+
+    __repr__ = brief("converging", "first_tau")
 
 
 @dataclass

@@ -24,8 +24,9 @@ from math import cos, sin, tan
 import numpy as np
 
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.problem import Hopper
-from hopper.stability.linearisation import tangency_angle
+from hopper.stability.tilted import tangency_angle
 
 
 @dataclass(frozen=True)
@@ -41,6 +42,8 @@ class Coefficients:
     d0: Array
     d1: Array
 
+    __repr__ = brief("n0", "cos_eta", "sin_eta")
+
 
 @dataclass(frozen=True)
 class RaySlopes:
@@ -55,6 +58,8 @@ class RaySlopes:
     tau_by_t: Array
     w_by_t: Array
     w_by_light: Array
+
+    __repr__ = brief("tau", "w")
 
 
 def psi_factor(hopper: Hopper) -> float:

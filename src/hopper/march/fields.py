@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.march.equations import tilt
 from hopper.march.loop import History, Loop, step
 
@@ -21,6 +22,8 @@ class Stress:
     rt: Array
     tt: Array
     pp: Array
+
+    __repr__ = brief("rr", "rt", "tt")
 
 
 def stress_of(s: float, sigma: Array, psi: Array) -> Stress:

@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.march.base import Base, BaseState, base_state
 from hopper.march.equations import psi_factor, terms
 from hopper.march.mapped import Mesh, mesh
@@ -36,6 +37,8 @@ class Loop:
     derivative: Array
     psi_factor: float
 
+    __repr__ = brief("legs", "y deg")
+
     @property
     def y(self) -> Array:
         """Points of a leg, radians, shape (n,)."""
@@ -56,6 +59,8 @@ class History:
     rate: Array
     end: End
     tangency: tuple[float, float] | None
+
+    __repr__ = brief("tau", "end")
 
 
 def make_loop(base: Base, n: int, legs: int) -> Loop:

@@ -15,6 +15,7 @@ from functools import lru_cache
 import numpy as np
 
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.spectral import chebyshev
 
 # beta = sech(this / n): the map's own error is about exp(-this) of what it interpolates.
@@ -33,6 +34,8 @@ class Mesh:
     derivative: Array
     radius: float
     beta: float
+
+    __repr__ = brief("x", "radius")
 
     def interpolation(self, x: Array) -> Array:
         """Return the matrix from nodal values to values at ``x`` in [-1, 1], shape (len(x), n)."""

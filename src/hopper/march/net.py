@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.march.base import Base, BaseTable, base_table
 from hopper.march.equations import both_families, psi_factor, tilt
 
@@ -38,6 +39,8 @@ class Net:
     left: float
     right: float
     through: bool
+
+    __repr__ = brief("left deg", "right deg", "through")
 
 
 def make_net(base: Base, symmetric: bool) -> Net:

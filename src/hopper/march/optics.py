@@ -13,7 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hopper.arguments import checked
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 from hopper.march.base import Base, base_state
 from hopper.march.equations import psi_factor
@@ -32,6 +34,8 @@ class ShortWaves:
     growth: float
     loop_time: float
     steepening: float
+
+    __repr__ = brief("growth", "loop_time", "steepening")
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +60,7 @@ class _Course:
     initial: Array
 
 
+@checked
 def short_waves(base: Base) -> ShortWaves:
     """Return the mean growth and steepening of short waves.
 
@@ -74,6 +79,7 @@ def short_waves(base: Base) -> ShortWaves:
     )
 
 
+@checked
 def threshold_factor(base: Base, top: Top) -> float:
     """Return by what the slopes of a top in a wedge are to be multiplied to be about to break.
 
@@ -93,6 +99,7 @@ def threshold_factor(base: Base, top: Top) -> float:
     return 1 / largest if largest > 0 else np.inf
 
 
+@checked
 def estimated_breakdown(base: Base, top: Top) -> float | None:
     """Return the estimate of the tau at which a top breaks in a wedge; None if it never does.
 

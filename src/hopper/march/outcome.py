@@ -4,14 +4,16 @@ Two ways to break down are watched: crossings on the nets, tangencies on the loo
 third: its logarithm is marched; gravity drives a light stress up again, or into a tangency.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import exp
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
 
+from hopper.arguments import RealRow, checked
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.march.base import Base, radial_fields, tilt_height
 from hopper.march.crossing import Crossing, net_verdict
@@ -21,7 +23,6 @@ from hopper.march.net import make_net
 from hopper.march.rays import first_crossing_of_rays
 from hopper.march.settling import linear_growth, settled_radius
 from hopper.march.tops import Top, require_admissible, riemann_deviation
-from hopper.problem import as_angles, is_real
 
 Kind = Literal["crossing", "tangency", "kink"]
 
@@ -63,6 +64,8 @@ class Settled:
     radius: float | None
     error: float | None
 
+    __repr__ = brief("level", "radius", "error")
+
 
 @dataclass(frozen=True)
 class Breakdown:
@@ -84,6 +87,8 @@ class Breakdown:
     error: float
     position: float
     radius: float
+
+    __repr__ = brief("tau", "error", "position", "radius")
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,7 +128,10 @@ class March:
     settled: tuple[Settled, ...]
     history: History
 
-    def fields(self, tau: float, theta: ArrayLike) -> tuple[Array, Array]:
+    __repr__ = brief("top.name", "kind", "trusted_tau", "error_estimate")
+
+    @checked
+    def fields(self, tau: float, theta: RealRow) -> tuple[Array, Array]:
         """Return sigma (over rho g r) and psi (radians) at a time and angles, shape (n,) each.
 
         Raises
@@ -131,24 +139,25 @@ class March:
         InvalidParameterError
             If tau is not within the trusted part of the march, or an angle not in the hopper.
         """
-        if not (is_real(tau) and 0 <= tau <= self.trusted_tau):
+        if not 0 <= tau <= self.trusted_tau:
             raise InvalidParameterError(
                 f"tau = {tau!r} is not within the march, which can be trusted up to "
                 f"tau = {self.trusted_tau:.6g}: no smooth stress is known there"
             )
-        theta = as_angles("theta", theta)
+        theta = np.asarray(theta)
         sigma, psi = radial_fields(self.base, theta)
-        w = state_at(self.history, float(tau))
+        w = state_at(self.history, tau)
         even, odd = deviations(self.history.loop, w, theta / self.base.hopper.half_angle)
         return sigma * np.exp(even), psi + odd
 
 
+@checked
 def march(
     base: Base,
     top: Top,
     tau_end: float,
     tolerance: float = 1e-4,
-    levels: tuple[float, ...] = (0.05, 0.01),
+    levels: Sequence[float] = (0.05, 0.01),
 ) -> March:
     """March a stress from the top down to tau = -log(r / r_top) = ``tau_end``, or to its breakdown.
 
@@ -163,7 +172,7 @@ def march(
     tolerance : float
         Wanted difference of two meshes in log sigma and psi (1e-3 at best, where a kink of the top
         runs); before a breakdown, on the first four fifths of the way.
-    levels : tuple of float
+    levels : sequence of float
         Distances from the radial field, over its sigma, for the settled radii.
 
     Raises
@@ -175,7 +184,7 @@ def march(
     ConvergenceError
         If the top is too rough for the finest mesh.
     """
-    if not (is_real(tau_end) and 0 < tau_end <= _DEEPEST):
+    if not 0 < tau_end <= _DEEPEST:
         raise InvalidParameterError(
             f"tau_end = {tau_end!r} must be positive and at most {_DEEPEST:g}, where "
             "r = r_top exp(-tau_end) vanishes"
@@ -183,7 +192,7 @@ def march(
     require_admissible(base, top)
     start = _history(base, top, _SIZES[1], 0.0)
     kinked = corner_defect(start.loop, start.w[0]) > _COMPATIBLE
-    kind, stop, breakdown = _on_nets(base, top, float(tau_end), kinked)
+    kind, stop, breakdown = _on_nets(base, top, tau_end, kinked)
     wanted = max(tolerance, _KINKED) if kinked else tolerance
     coarse, fine, tau, error = _on_two_meshes(base, top, stop, wanted, stop < tau_end)
     trusted = float(tau[error <= _TRUSTED][-1])
@@ -210,6 +219,7 @@ def march(
     )
 
 
+@checked
 def crossing_of_rays(base: Base, top: Top, tau_end: float) -> Crossing | None:
     """Return the first crossing by Jacobians along rays, a second way to that of :func:`march`.
 

@@ -8,15 +8,15 @@ from dataclasses import dataclass
 from math import degrees, pi, tan
 
 import numpy as np
-from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 
+from hopper.arguments import AnyFloat, RealRow, checked
 from hopper.arrays import Array
+from hopper.brief import brief
 from hopper.errors import InvalidParameterError, NonPositiveStressError, TangencyError
 from hopper.march.base import Base, radial_fields
 from hopper.march.equations import tilt
-from hopper.problem import as_angles, is_real
-from hopper.stability.linearisation import tangency_angle
+from hopper.stability.tilted import tangency_angle
 
 # Differences (radians, or relative) that count as rounding of given data.
 _ROUNDING = 1e-6
@@ -35,8 +35,11 @@ class Top:
     symmetric: bool
     deviation: Deviation
 
+    __repr__ = brief("name", "symmetric")
 
-def scaled(factor: float) -> Top:
+
+@checked
+def scaled(factor: AnyFloat) -> Top:
     """Return the radial field with ``factor`` times its stress.
 
     Raises
@@ -44,12 +47,13 @@ def scaled(factor: float) -> Top:
     NonPositiveStressError
         If the factor is not a positive number.
     """
-    if not (is_real(factor) and 0 < factor < np.inf):
+    if not 0 < factor < np.inf:
         raise NonPositiveStressError(f"factor = {factor!r} must be a positive number")
     shift = float(np.log(factor))
     return Top(f"radial field x {factor:g}", True, lambda _, x: (0 * x + shift, 0 * x))
 
 
+@checked
 def linear_psi() -> Top:
     """Return sigma as the radial field's on the axis everywhere, and psi = psi_w x."""
 
@@ -61,6 +65,7 @@ def linear_psi() -> Top:
     return Top("linear psi", True, deviation)
 
 
+@checked
 def bin_like() -> Top:
     """Return the stress of a bin with the major principal axis horizontal.
 
@@ -78,32 +83,33 @@ def bin_like() -> Top:
     return Top("bin", True, deviation)
 
 
+@checked
 def bump_of_sigma(amplitude: float) -> Top:
     """Return the radial field with ``amplitude`` (1 - x**2)**6 added to log sigma (data S)."""
-    size = _finite("amplitude", amplitude)
-    return Top(f"S {size:g}", True, lambda _, x: (size * (1 - x**2) ** 6, 0 * x))
+    return Top(f"S {amplitude:g}", True, lambda _, x: (amplitude * (1 - x**2) ** 6, 0 * x))
 
 
+@checked
 def bump_of_psi(amplitude: float) -> Top:
     """Return the radial field with ``amplitude`` x (1 - x**2)**6 added to psi (data A), radians."""
-    size = _finite("amplitude", amplitude)
-    return Top(f"A {size:g}", True, lambda _, x: (0 * x, size * x * (1 - x**2) ** 6))
+    return Top(f"A {amplitude:g}", True, lambda _, x: (0 * x, amplitude * x * (1 - x**2) ** 6))
 
 
+@checked
 def one_sided_bump(amplitude: float) -> Top:
     """Return the radial field with a bump of log sigma on 0 <= x <= 1, for wedges.
 
     ``amplitude`` (1 - (2 x - 1)**2)**6 is added to log sigma there.
     """
-    size = _finite("amplitude", amplitude)
 
     def deviation(_: Base, x: Array) -> tuple[Array, Array]:
-        return size * np.where(x > 0, np.maximum(4 * x * (1 - x), 0.0), 0.0) ** 6, 0 * x
+        return amplitude * np.where(x > 0, np.maximum(4 * x * (1 - x), 0.0), 0.0) ** 6, 0 * x
 
-    return Top(f"one-sided {size:g}", False, deviation)
+    return Top(f"one-sided {amplitude:g}", False, deviation)
 
 
-def profile(theta: ArrayLike, sigma: ArrayLike, psi: ArrayLike) -> Top:
+@checked
+def profile(theta: RealRow, sigma: RealRow, psi: RealRow) -> Top:
     """Return a top of given fields; between the points it is a cubic spline.
 
     Parameters
@@ -123,7 +129,7 @@ def profile(theta: ArrayLike, sigma: ArrayLike, psi: ArrayLike) -> Top:
     NonPositiveStressError
         If sigma is not positive.
     """
-    theta, sigma, psi, half = _whole_profile(theta, sigma, psi)
+    theta, sigma, psi, half = _whole_profile(np.asarray(theta), np.asarray(sigma), np.asarray(psi))
     splines = CubicSpline(theta, np.log(sigma)), CubicSpline(theta, psi)
     symmetric = half or bool(
         np.allclose(theta, -theta[::-1], rtol=0, atol=_ROUNDING)
@@ -145,20 +151,12 @@ def profile(theta: ArrayLike, sigma: ArrayLike, psi: ArrayLike) -> Top:
     return Top("profile", symmetric, deviation)
 
 
-def _whole_profile(
-    theta: ArrayLike, sigma: ArrayLike, psi: ArrayLike
-) -> tuple[Array, Array, Array, bool]:
+def _whole_profile(theta: Array, sigma: Array, psi: Array) -> tuple[Array, Array, Array, bool]:
     """Return checked arrays of a profile from wall to wall, and whether half of it was given."""
-    theta, sigma, psi = (
-        as_angles(name, values)
-        for name, values in (("theta", theta), ("sigma", sigma), ("psi", psi))
-    )
-    if not (theta.shape == sigma.shape == psi.shape and theta.ndim == 1 and theta.size >= 4):
+    if not (theta.shape == sigma.shape == psi.shape and theta.size >= 4):
         raise InvalidParameterError("theta, sigma and psi must be arrays of one length >= 4")
-    if not (np.isfinite(theta + sigma + psi).all() and np.all(np.diff(theta) > 0)):
-        raise InvalidParameterError(
-            "theta, sigma and psi of a profile must be finite, theta increasing: drop other points"
-        )
+    if not np.all(np.diff(theta) > 0):
+        raise InvalidParameterError("theta of a profile must be increasing: sort its points")
     if sigma.min() <= 0:
         raise NonPositiveStressError(
             f"sigma = {sigma.min():.6g} of the profile is not positive: give compressive stresses"
@@ -175,6 +173,7 @@ def _whole_profile(
     return theta, sigma, psi, half
 
 
+@checked
 def riemann_deviation(base: Base, top: Top, x: Array) -> Array:
     """Return the deviations of R+ and R- at x that a top prescribes, shape (2, n)."""
     even, odd = top.deviation(base, x)
@@ -182,6 +181,7 @@ def riemann_deviation(base: Base, top: Top, x: Array) -> Array:
     return np.stack([even + odd, even - odd])
 
 
+@checked
 def require_admissible(base: Base, top: Top) -> None:
     """Check a top against symmetry (cones), the wall law and the direction of time.
 
@@ -220,9 +220,3 @@ def require_admissible(base: Base, top: Top) -> None:
             f"characteristics with the line where it is given: no smooth march starts there",
             base.hopper.half_angle * float(x[worst]),
         )
-
-
-def _finite(name: str, value: float) -> float:
-    if not (is_real(value) and np.isfinite(value)):
-        raise InvalidParameterError(f"{name} = {value!r} is not a finite number")
-    return float(value)
