@@ -28,6 +28,7 @@ include: "workflow/rules/claims.smk"
 
 
 rule all:
+    """All figures and the claims ledger."""
     default_target: True
     input:
         expand("figures/{figure}.{suffix}", figure=FIGURES, suffix=["png", "pdf"]),

@@ -34,6 +34,7 @@ def compute_flow_factor(
     deviation = computed / published.ff_chart.to_numpy() - 1
     counted = published.phi_w_deg.to_numpy() >= least_friction_deg
     rms = float(np.sqrt(np.mean(deviation[counted] ** 2)))
+    of = {shape: counted & (published.geometry.to_numpy() == shape) for shape in GEOMETRIES}
     logging.info("RMS deviation from the chart: %.2f %% over %d points", 100 * rms, counted.sum())
     result = {
         "hoppers": [dict(zip(_HOPPER, row, strict=True)) for row in hoppers],
@@ -42,9 +43,18 @@ def compute_flow_factor(
         "points": points,
         "computed": computed,
         "rms_deviation": rms,
+        "rms": [float(np.sqrt(np.mean(deviation[chosen] ** 2))) for chosen in of.values()],
+        "geometry": list(of),
+        "delta": _only(columns["delta_deg"]),
         "phi": grid,
     }
     return dataset(result, TABLE, AXES)
+
+
+def _only(values: list[float]) -> float:
+    """Return the value that all have."""
+    (value,) = set(values)
+    return value
 
 
 def _curve(hopper: Hopper, friction_angles_deg: np.ndarray) -> np.ndarray:
@@ -59,6 +69,7 @@ def _curve(hopper: Hopper, friction_angles_deg: np.ndarray) -> np.ndarray:
     return curve
 
 
+GEOMETRIES = ("wedge", "cone")
 _HOPPER = ("geometry", "delta_deg", "theta_deg")
 TABLE = (
     text("curve_geometry", "geometry", "curve", "hoppers.geometry"),
@@ -76,8 +87,13 @@ TABLE = (
         "points.error_estimate",
     ),
     number("rms_deviation", "RMS relative deviation from the chart"),
+    number("rms", "the same for each geometry", "geometry"),
+    in_degrees("delta", "angle of internal friction of the chart", source="delta"),
 )
-AXES = (in_degrees("phi", "angle of wall friction", "phi"),)
+AXES = (
+    text("geometry", "shape of the hopper", "geometry"),
+    in_degrees("phi", "angle of wall friction", "phi"),
+)
 
 if __name__ == "__main__":
     jobs.run(

@@ -36,7 +36,7 @@ def compute_linear_checks(
     smooth: dict[str, Any],
     folds: dict[str, Any],
     windows: dict[str, Any],
-    kept_modes: dict[str, dict[str, Any]],
+    norms: dict[str, dict[str, Any]],
 ) -> xr.Dataset:
     """Check the deductions of section 4; ``wedge`` and ``cone`` are filtered spectra."""
     case = (delta_deg, half_angle_deg)
@@ -47,10 +47,10 @@ def compute_linear_checks(
         "smooth": _smooth(*case, **smooth),
         "folds": _folds(**folds),
         "derivative": _first_derivative(nodes, coarse_nodes, tolerance),
-        "oscillation": _oscillation((*case, mu), nodes, (wedge, cone), kept_modes, windows),
+        "oscillation": _oscillation((*case, mu), nodes, (wedge, cone), norms, windows),
         "matrix": ["A", "B", "C"],
         "entry": [1, 2],
-        "mode": list(kept_modes),
+        "formulation": list(norms),
         "start": windows["starts"],
         "geometry": list(_GEOMETRIES),
     }
@@ -116,20 +116,21 @@ def _oscillation(
     norms: dict[str, dict[str, Any]],
     windows: dict[str, Any],
 ) -> dict[str, np.ndarray]:
-    """Return amplitudes and their errors over geometry, mode and start."""
+    """Return amplitudes and their errors over geometry, formulation and start."""
     table = np.empty((len(spectra), len(norms), len(windows["starts"]), 2))
     for i, (geometry, path) in enumerate(zip(_GEOMETRIES, spectra, strict=True)):
         solution, spectrum = solution_of(geometry, *case), artifacts.read(path)
-        for j, (mode, norm) in enumerate(norms.items()):
+        for j, (formulation, norm) in enumerate(norms.items()):
             bases = [
                 modal_basis(solution, nodes, half, kept, **norm)
-                for half, kept in by_half(spectrum, mode).items()
+                for half, kept in by_half(spectrum, formulation).items()
             ]
             table[i, j] = [
                 oscillation(bases, start, windows["length"], windows["points"])
                 for start in windows["starts"]
             ]
-            logging.info("%s, %s mode: oscillation %s", geometry, mode, table[i, j, :, 0])
+            name = f"{geometry}, {formulation} formulation"
+            logging.info("%s: oscillation %s", name, table[i, j, :, 0])
     return {"amplitude": table[..., 0], "error": table[..., 1]}
 
 
@@ -217,18 +218,18 @@ TABLE = (
                 "oscillation",
                 "relative variation of exp(t alpha) times the norm of exp(-t M) over a window of "
                 "-t",
-                "geometry mode start",
+                "geometry formulation start",
                 "amplitude",
             ),
             number(
                 "oscillation_error",
-                "its change from half as many times",
-                "geometry mode start",
+                "its change from half of the sampled times",
+                "geometry formulation start",
                 "error",
             ),
         ),
     ),
-    text("mode", "kept modes and their norm", "mode"),
+    text("formulation", "formulation and its norm", "formulation"),
     number("start", "start of the window of -t", "start"),
 )
 AXES = (text("geometry", "shape of the hopper", "geometry"),)

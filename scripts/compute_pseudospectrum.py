@@ -8,7 +8,7 @@ import xarray as xr
 
 from hopper_workflow import artifacts, jobs, ranges
 from hopper.spectral.matching import by_modulus
-from hopper.spectral.pseudospectrum import pseudospectrum
+from hopper.spectral.pseudospectrum import plane_of, pseudospectrum
 from hopper.spectral.schur import schur_form
 from hopper.stability.mesh_spectrum import HALVES
 from hopper.stability.paper_matrix import Half, half_matrix
@@ -23,27 +23,29 @@ def compute_pseudospectrum(
     *,
     hopper: dict[str, Any],
     nodes: int,
-    mode: str,
+    formulation: str,
     norm: Norm,
     psi_scale: float,
     real: dict[str, Any],
     imag: dict[str, Any],
 ) -> xr.Dataset:
-    """Compute the grid for the full interval (paper mode) or for the flow's parity (physical)."""
+    """Compute the grid in the paper's formulation, both parities, or the physical, the flow's."""
     solution = solution_of(**hopper)
-    x, y = ranges.spaced(**real), ranges.spaced(**imag)
-    halves: tuple[Half, ...] = HALVES if mode == "paper" else ("physical",)
-    grids, eigenvalues = [], []
-    for half in halves:
-        matrix = half_matrix(solution, nodes // 2, half, psi_scale)
-        form = schur_form(matrix, half_weights(solution.hopper, nodes // 2, norm))
+    halves: tuple[Half, ...] = HALVES if formulation == "paper" else ("physical",)
+    weight = half_weights(solution.hopper, nodes // 2, norm)
+    forms = [
+        schur_form(half_matrix(solution, nodes // 2, half, psi_scale), weight) for half in halves
+    ]
+    values = by_modulus(np.concatenate([form.eigenvalues for form in forms]))
+    x, y = plane_of(values, ranges.spaced(**real), ranges.spaced(**imag))
+    grids = []
+    for half, form in zip(halves, forms, strict=True):
         report = jobs.progress(logging.getLogger(), f"{half} half, grid points")
         grids.append(pseudospectrum(form, x, y, progress=report).sigma_min)
-        eigenvalues.append(form.eigenvalues)
     result = {
         # The parities are orthogonal in both norms: the smaller of the two is that of M.
         "sigma_min": np.min(grids, axis=0),
-        "eigenvalue": by_modulus(np.concatenate(eigenvalues)),
+        "eigenvalue": values,
         "real": x,
         "imag": y,
     }
@@ -56,7 +58,7 @@ if __name__ == "__main__":
     jobs.run(
         artifacts.writing(
             compute_pseudospectrum,
-            "Pseudospectrum of the stability operator, {mode} mode, {norm} norm",
+            "Pseudospectrum of the stability operator, {formulation} formulation, {norm} norm",
             "(4.2); Trefethen and Embree (2005)",
         )
     )

@@ -6,15 +6,15 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from hopper_workflow import artifacts, jobs, kept_modes, ranges
+from hopper_workflow import artifacts, jobs, kept_modes
 from hopper.spectral.schur import schur_form
 from hopper.spectral.sensitivity import (
     kept_condition_numbers,
     kept_form,
     kept_sensitivity,
-    resolvent_norm,
+    resolvent_curves,
 )
-from hopper.spectral.transient import abscissa, condition_number, propagator_norm
+from hopper.spectral.transient import condition_number, growth_curves
 from hopper.stability.paper_matrix import half_matrix
 from hopper.stability.transient import Norm, half_weights, modal_basis
 from hopper_data.datasets import dataset
@@ -28,7 +28,7 @@ def compute_sensitivity(
     *,
     hopper: dict[str, Any],
     nodes: int,
-    mode: str,
+    formulation: str,
     norm: Norm,
     psi_scale: float,
     frequencies: dict[str, Any],
@@ -36,7 +36,7 @@ def compute_sensitivity(
 ) -> xr.Dataset:
     """Measure the non-normality of M on the kept modes and of the full matrix."""
     solution = solution_of(**hopper)
-    kept = kept_modes.by_half(artifacts.read(spectrum), mode)
+    kept = kept_modes.by_half(artifacts.read(spectrum), formulation)
     weight = half_weights(solution.hopper, nodes // 2, norm)
     forms = {
         half: schur_form(half_matrix(solution, nodes // 2, half, psi_scale), weight)
@@ -44,7 +44,10 @@ def compute_sensitivity(
     }
     bases = [modal_basis(solution, nodes, h, values, norm, psi_scale) for h, values in kept.items()]
     measures = kept_sensitivity(bases)
-    y, times = ranges.spaced(0, **frequencies), ranges.spaced(0, **elapsed)
+    times, (growth,) = growth_curves([bases], 0, elapsed["stop"], elapsed["points"])
+    y, (resolvent_kept, resolvent) = resolvent_curves(
+        [[kept_form(bases)], list(forms.values())], frequencies["stop"], frequencies["points"]
+    )
     result: dict[str, Any] = {
         "eigenvalue": np.concatenate(list(kept.values())),
         "half": np.repeat(list(kept), [values.size for values in kept.values()]),
@@ -53,13 +56,13 @@ def compute_sensitivity(
         ),
         "basis_condition": condition_number(bases),
         "measures": measures,
-        "relative_growth": propagator_norm(bases, times) * np.exp(-abscissa(bases) * times),
-        "resolvent_kept": resolvent_norm([kept_form(bases)], y),
-        "resolvent": resolvent_norm(list(forms.values()), y),
+        "relative_growth": growth,
+        "resolvent_kept": resolvent_kept,
+        "resolvent": resolvent,
         "frequency": y,
         "elapsed": times,
     }
-    logging.info("%s, %s: %s", hopper["geometry"], mode, measures)
+    logging.info("%s, %s: %s", hopper["geometry"], formulation, measures)
     return dataset(result, TABLE, AXES)
 
 
@@ -88,7 +91,7 @@ if __name__ == "__main__":
     jobs.run(
         artifacts.writing(
             compute_sensitivity,
-            "Sensitivity of the spectrum, {mode} mode, {norm} norm",
+            "Sensitivity of the spectrum, {formulation} formulation, {norm} norm",
             "(4.2), (4.11); Trefethen and Embree (2005)",
         )
     )

@@ -1,4 +1,4 @@
-"""Low modes in physical mode, the asymptotic line, and the spectral abscissa they give."""
+"""Low modes in the physical formulation, the line, and the spectral abscissa they give."""
 
 import logging
 

@@ -2,13 +2,14 @@
 
 import logging
 from collections.abc import Sequence
+from itertools import product
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from hopper_workflow import artifacts, jobs, kept_modes, ranges
-from hopper.spectral.transient import abscissa, condition_number, propagator_norm
+from hopper_workflow import artifacts, jobs, kept_modes
+from hopper.spectral.transient import abscissa, condition_number, growth_curves
 from hopper.stability.transient import NORMS, Norm, modal_basis
 from hopper_data.datasets import dataset
 from hopper_data.inputs import solution_of
@@ -25,33 +26,39 @@ def compute_transient(
     psi_scales: Sequence[float],
     elapsed: dict[str, Any],
 ) -> xr.Dataset:
-    """Compute the norm over -t in [0, elapsed.stop] for every mode, norm and weight of psi."""
+    """Compute the norm over -t in [0, elapsed.stop] for every formulation, norm and weight of psi.
+
+    ``elapsed.points`` is the least number of times; there are as many as the curves need.
+    """
     data, solution = artifacts.read(spectrum), solution_of(**hopper)
-    times = ranges.spaced(0, **elapsed)
-
-    def case(mode: str, norm: Norm, scale: float) -> dict[str, Any]:
-        bases = [
-            modal_basis(solution, nodes, half, kept, norm, scale)
-            for half, kept in kept_modes.by_half(data, mode).items()
-        ]
-        alpha, kappa = abscissa(bases), condition_number(bases)
-        logging.info(
-            "%s, %s norm, psi scale %g: alpha %.6f, kappa %.4g", mode, norm, scale, alpha, kappa
-        )
-        lower = np.exp(alpha * times)
-        return {
-            "growth": propagator_norm(bases, times),
-            "lower_bound": lower,
-            "upper_bound": kappa * lower,
-            "abscissa": alpha,
-            "condition": kappa,
-        }
-
+    choices = list(product(kept_in, norms, psi_scales))
     cases = [
-        [[case(mode, norm, scale) for scale in psi_scales] for norm in norms] for mode in kept_in
+        [
+            modal_basis(solution, nodes, half, kept, norm, scale)
+            for half, kept in kept_modes.by_half(data, formulation).items()
+        ]
+        for formulation, norm, scale in choices
     ]
+    times, curves = growth_curves(cases, 0, elapsed["stop"], elapsed["points"])
+    logging.info("%d times", times.size)
+    found: list[dict[str, Any]] = []
+    for choice, bases, relative in zip(choices, cases, curves, strict=True):
+        alpha, kappa = abscissa(bases), condition_number(bases)
+        logging.info("%s, %s norm, psi scale %g: alpha %.6f, kappa %.4g", *choice, alpha, kappa)
+        lower = np.exp(alpha * times)
+        found.append(
+            {
+                "growth": relative * lower,
+                "lower_bound": lower,
+                "upper_bound": kappa * lower,
+                "abscissa": alpha,
+                "condition": kappa,
+            }
+        )
+    rest = iter(found)
+    table = [[[next(rest) for _ in psi_scales] for _ in norms] for _ in kept_in]
     axes = {"kept_in": kept_in, "norm": norms, "psi_scale": psi_scales, "elapsed": times}
-    return dataset({"cases": cases, **axes}, TABLE, AXES, leading="kept_in norm psi_scale")
+    return dataset({"cases": table, **axes}, TABLE, AXES, leading="kept_in norm psi_scale")
 
 
 TABLE = within(
@@ -65,7 +72,7 @@ TABLE = within(
     ),
 )
 AXES = (
-    flag("kept_in", "kept modes", kept_modes.MODES, "kept_in"),
+    flag("kept_in", "formulation in which modes are kept", kept_modes.FORMULATIONS, "kept_in"),
     flag("norm", "vector norm", NORMS, "norm"),
     number("psi_scale", "p in (sigma1, psi1 / p)", "psi_scale"),
     number("elapsed", "-t = -log r, the way down the hopper", "elapsed"),

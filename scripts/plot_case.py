@@ -1,52 +1,63 @@
-"""One page on a hopper of the list `cases`: fields, spectrum, and the numbers."""
+"""One page on a hopper of the list `cases`: verdict, fields, spectrum, and the numbers."""
 
 import textwrap
+from typing import Any
 
 import xarray as xr
 from matplotlib.axes import Axes
 
 from hopper_workflow import artifacts, jobs, plotting
 from hopper_cli import drawing, text
+from hopper_data.inputs import Case, Wall
 from hopper_data.tables import Row, number
 
 
-def plot_case(artifact: str, png: str, pdf: str, *, description: str, delta_deg: float) -> None:
-    """Plot what the artifact holds; where a part does not exist, say why."""
+def plot_case(artifact: str, png: str, pdf: str, *, case: dict[str, Any]) -> None:
+    """Plot what the artifact holds; of a part that does not exist the numbers tell the reason."""
     data = artifacts.read(artifact)
-    figure, axes = plotting.subplots(2, 3, height=5.2)
-    figure.suptitle("\n".join(filter(None, [data.attrs["title"], description])), fontsize=8)
-    if "sigma" in data:
-        profiles = {key: data[key].to_numpy() for key in _FIELDS if key in data.variables}
-        drawing.draw_fields(axes[0], delta_deg, profiles)
-    else:
-        for axis in axes[0]:
-            drawing.say(axis, "no radial solution")
-    spectrum, *rest = axes[1]
+    profiles = {key: data[key].to_numpy() for key in _FIELDS if key in data.variables}
+    rows = ["fields"] * ("sigma" in profiles) + ["numbers"]
+    heights = {"fields": 2.4, "numbers": 2.9}
+    figure, place = plotting.subplots(height=0.5 + sum(heights[row] for row in rows))
+    place.remove()
+    figure.suptitle(_title(data, case), fontsize=8)
+    parts = figure.subfigures(len(rows), 1, height_ratios=[heights[row] for row in rows])
+    if len(rows) == 1:
+        parts = [parts]
+    if "sigma" in profiles:
+        panels = parts[0].subplots(1, 3 if "u" in profiles else 2)
+        drawing.draw_fields(panels, case["delta_deg"], profiles)
     if "line" in data:
+        spectrum, numbers = parts[-1].subplots(1, 2, width_ratios=[1, 1.7])
         drawing.draw_spectrum(spectrum, data.eigenvalue.to_numpy(), float(data.line))
     else:
-        drawing.say(spectrum, "no spectrum")
-    for axis in rest:
-        axis.remove()
-    _write_numbers(figure.add_subplot(spectrum.get_gridspec()[1, 1:]), data)
+        numbers = parts[-1].subplots()
+    _write_numbers(numbers, data)
     plotting.save(figure, png, pdf)
 
 
+def _title(data: xr.Dataset, case: dict[str, Any]) -> str:
+    given = {key: case[key] for key in ("geometry", "model", "delta_deg", "half_angle_deg")}
+    hopper = Case(**given, wall=Wall.of(case["mu"]))
+    verdict = data.outcome.item().replace("_", " ")
+    words = [case["name"].replace("_", " "), case.get("description", "")]
+    return f"{drawing.title(hopper, verdict)}\n{': '.join(filter(None, words))}"
+
+
 def _write_numbers(axis: Axes, data: xr.Dataset) -> None:
-    """Write the outcome, a table of every number that has an error, and the reason, if any."""
+    """Write a table of every number that has an error, and the reason for what is missing."""
     axis.axis("off")
-    outcome = data.outcome.item().replace("_", " ")
-    axis.set_title(f"outcome: {outcome}", fontweight="bold")
     rows = [
         Row(number(str(key), item.long_name, units=item.units), float(item), float(error))
         for key, item in data.items()
         if item.ndim == 0 and (error := data.get(f"{key}_error")) is not None
     ]
-    for line, cells in enumerate(text.number_cells(rows)):
-        for x, words in zip((0.04, 0.62), cells, strict=True):
-            axis.text(x, 0.97 - 0.06 * line, words, fontsize=6.5, va="top")
-    reason = textwrap.fill(data.attrs.get("comment", ""), 90)
-    axis.text(0.04, 0, reason, fontsize=6.5, va="bottom")
+    small = {"fontsize": plotting.SMALL, "va": "top"}
+    for line, (label, value) in enumerate(text.number_cells(rows)):
+        axis.text(0.0, 1 - 0.056 * line, label, **small)
+        axis.text(0.66, 1 - 0.056 * line, drawing.typeset(value), **small)
+    if reason := data.attrs.get("comment", ""):
+        axis.text(0.0, 0.0, textwrap.fill(reason, 70), **{**small, "va": "bottom"})
 
 
 _FIELDS = ("theta", "sigma", "psi", "u")

@@ -69,7 +69,7 @@ def _draw_cone(axis: Axes, half_angle: float) -> None:
             linewidth=0.8,
         )
     )
-    axis.text(0.2, y + 0.2, r"$\varphi$", ha="left", va="center")
+    axis.text(0.19, y + 0.29, r"$\varphi$", ha="left", va="center")
 
 
 def _draw_coordinates(axis: Axes, half_angle: float, theta: float) -> None:

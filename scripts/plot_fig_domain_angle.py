@@ -9,33 +9,27 @@ from hopper_workflow import artifacts, jobs, plotting
 def draw(artifact: str) -> Figure:
     """Plot the area of the domain and the neutral delta at several wall frictions."""
     data = artifacts.read(artifact)
-    figure, (left, right) = plotting.subplots(1, 2, height=2.8)
-    left.plot(data.half_angle, data.area, "o-", color=plotting.BLUE, label="stable")
-    left.plot(
-        data.half_angle,
-        data.area_reached,
-        "s--",
-        color=plotting.ORANGE,
-        label=r"the same with $\psi < \pi/4$",
-    )
-    left.set_ylim(bottom=0)
-    left.legend()
+    figure, (left, right) = plotting.subplots(1, 2, height=3.2)
+    angles = data.half_angle
+    left.plot(angles, data.area, "o-", color=plotting.BLUE, label="stable")
+    reached = {"color": plotting.ORANGE, "label": r"the same with $\psi < \pi/4$"}
+    left.plot(angles, data.area_reached, "s--", **reached)
+    left.set_ylim(0, 1.25 * float(data.area.max()))
+    left.legend(loc="upper right")
     left.set_ylabel("area of the stable domain (square degrees)")
-    for index, color in enumerate(plotting.sequence(data.sizes["phi"])):
-        curve = data.neutral_delta.isel(phi=index)
+    for phi, look in zip(data.phi.values, plotting.series(data.sizes["phi"]), strict=True):
+        curve = data.neutral_delta.sel(phi=phi)
         if np.isfinite(curve).any():
-            right.plot(
-                data.half_angle,
-                curve,
-                "o-",
-                color=color,
-                label=rf"$\phi$ = {float(data.phi[index]):g}°",
-            )
+            look |= {"markevery": 1}
+            right.plot(angles, curve, label=rf"$\phi$ = {phi:g}°", **look)
     right.set_ylabel(r"neutral $\delta$ (degrees)")
-    right.legend(ncols=2)
+    bottom, top = right.get_ylim()
+    right.set_ylim(bottom, top + 0.35 * (top - bottom))
+    right.legend(ncols=3, loc="upper left")
     for axis in (left, right):
         axis.set_xlabel(r"half opening angle $\vartheta_w$ (degrees)")
-        axis.set_xlim(0, float(data.half_angle.max()) * 1.03)
+        axis.set_xlim(0, float(angles.max()) * 1.03)
+        axis.set_title("cone, physical formulation")
     plotting.letter((left, right))
     return figure
 

@@ -11,37 +11,42 @@ from hopper_workflow import artifacts, jobs, plotting
 
 def draw(wedge_paper: str, cone_paper: str, wedge_physical: str, cone_physical: str) -> Figure:
     """Plot the resolvent (top) and the relative growth with its Kreiss bound (bottom)."""
-    figure, axes = plotting.subplots(2, 2, height=5.0)
-    paths = (("wedge", wedge_paper, wedge_physical), ("cone", cone_paper, cone_physical))
-    for column, (geometry, paper, physical) in enumerate(paths):
+    figure, axes = plotting.subplots(2, 2, height=5.4, sharey="row")
+    paths = ((wedge_paper, wedge_physical), (cone_paper, cone_physical))
+    for column, (geometry, both) in enumerate(zip(plotting.GEOMETRIES, paths, strict=True)):
         top, bottom = axes[:, column]
-        for mode, path, color in (
-            ("paper", paper, plotting.BLUE),
-            ("physical", physical, plotting.ORANGE),
-        ):
-            data = artifacts.read(path)
-            _draw_mode(top, bottom, data, mode, {"color": color, "linewidth": 0.9})
-        near = [float(artifacts.read(path).distance) for path in (paper, physical)]
-        top.set_title(f"{geometry}: distance {near[0]:.2g} (paper), {near[1]:.2g} (physical)")
+        for path, color in zip(both, _COLORS, strict=True):
+            _draw_case(top, bottom, artifacts.read(path), {"color": color, "linewidth": 0.8})
+        data = artifacts.read(both[0])
+        verdict = "stability" if data.eigenvalue.to_numpy().real.max() > 0 else "instability"
+        near = [f"{float(artifacts.read(path).distance):.2g}" for path in both]
+        top.set_title(f"{geometry}: distance to {verdict} {near[0]} (paper), {near[1]} (physical)")
         top.set_xlabel(r"$y$")
-        top.set_ylabel(r"$\|(iy - M)^{-1}\|$")
         top.set_xlim(0, float(data.frequency.max()))
-        bottom.set_title(f"{geometry}: growth")
+        bottom.set_title(f"{geometry}: growth on the kept modes")
         bottom.set_xlabel(r"$-t = -\log r$")
-        bottom.set_ylabel(r"$\|\exp(-t M)\|\, e^{t\alpha}$")
         bottom.set_xlim(0, float(data.elapsed.max()))
-    for row, place in ((1, "outside lower center"), (0, "outside upper center")):
-        figure.legend(*axes[row, 0].get_legend_handles_labels(), loc=place, ncols=4)
+    axes[0, 0].set_ylabel(r"$\|(iy - M)^{-1}\|$")
+    axes[1, 0].set_ylabel(r"$\|\exp(-t M)\|\, e^{t\alpha}$")
+    plotting.below(figure, _KEYS, 3)
     return figure
 
 
-def _draw_mode(top: Axes, bottom: Axes, data: xr.Dataset, mode: str, look: dict[str, Any]) -> None:
-    dashed = {**look, "linestyle": "--"}
-    top.semilogy(data.frequency, data.resolvent, label=f"{mode}, full matrix", **look)
-    top.semilogy(data.frequency, data.resolvent_kept, label=f"{mode}, kept modes", **dashed)
-    bottom.semilogy(data.elapsed, data.relative_growth, label=mode, **look)
-    bottom.axhline(float(data.kreiss_bound), label=f"{mode}, Kreiss bound", **dashed)
+def _draw_case(top: Axes, bottom: Axes, data: xr.Dataset, look: dict[str, Any]) -> None:
+    top.semilogy(data.frequency, data.resolvent, **look)
+    top.semilogy(data.frequency, data.resolvent_kept, linestyle="--", **look)
+    bottom.semilogy(data.elapsed, data.relative_growth, **look)
+    bottom.axhline(float(data.kreiss_bound), linestyle=":", **{**look, "linewidth": 1.2})
 
+
+_COLORS = (plotting.BLACK, plotting.ORANGE)
+_KEYS = (
+    plotting.key("paper's formulation", color=_COLORS[0], linewidth=3),
+    plotting.key("full matrix; growth", color="0.4"),
+    plotting.key("kept modes alone", color="0.4", linestyle="--"),
+    plotting.key("physical formulation", color=_COLORS[1], linewidth=3),
+    plotting.key("Kreiss bound of the growth", color="0.4", linestyle=":"),
+)
 
 if __name__ == "__main__":
     jobs.run(plotting.saving(draw))

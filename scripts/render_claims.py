@@ -3,12 +3,13 @@
 import csv
 import re
 from html import unescape
+from math import floor, log10
 from pathlib import Path
 
 import jinja2
 
 from hopper_workflow import artifacts, jobs
-from hopper_workflow.claims.finding import FAILS, HOLDS, LIMITED, UNDECIDED, VERDICTS
+from hopper_workflow.claims.finding import FAILS, HOLDS, LIMITED, UNDECIDED, VERDICTS, upper_bound
 from hopper_workflow.claims.words import read_not_judged
 
 # Colours of a contrast of at least 7 : 1; the mark and the words say the same without them.
@@ -18,9 +19,22 @@ STYLES = {
     FAILS: {"css": "fails", "mark": "✗", "background": "#fbdcd6", "color": "#7a1204"},
     UNDECIDED: {"css": "undecided", "mark": "?", "background": "#e6e6ea", "color": "#33333d"},
 }
+# Below it a value is nothing but the rounding of a few operations.
+_ROUNDING = 1e-13
 _NAMES = "sigma|psi|delta|theta|phi|mu|lambda|kappa|alpha|omega|chi|rho|epsilon|pi"
 # Whole words, perhaps with an index, or one after the other as in T_phiphi.
 _LETTERS = rf"(?:(?<![A-Za-z])|(?<=phi|eta))(?:{_NAMES})(?=(?:phi|theta)?(?![A-Za-z]))"
+_FIGURES = (
+    (r"results/radial/(\w+)\.nc", r"\1"),
+    (r"results/(?:spectrum|transient|friction)/(\w+)/\w+\.nc", r"\1"),
+    (r"results/stability/(\w+)/\w+\.nc", r"\1_physical"),
+    (r"results/(?:borders|paper_border)/\w+\.nc", "fig_4_5"),
+    (r"results/map/\w+\.nc", "fig_4_5_map"),
+    (r"results/sensitivity/\w+\.nc", "fig_resolvent"),
+    (r"results/flow_factor/jenike\.nc", "fig_jenike"),
+    (r"results/smooth_wall\.nc", "fig_4_1"),
+    (r"results/domain_angle\.nc", "fig_domain_angle"),
+)
 _NOTATION = (
     (r"sqrt\((\d+)\)", r"√\1"),
     (r" deg\b", "°"),
@@ -68,6 +82,8 @@ def _environment(escape: bool) -> jinja2.Environment:
     )
     environment.filters["figure"] = figure
     environment.filters["cell"] = cell
+    environment.filters["figures"] = figures
+    environment.filters["removed"] = str.removeprefix
     environment.filters["symbols"] = symbols
     return environment
 
@@ -77,12 +93,31 @@ def _text(path: str) -> str:
 
 
 def figure(computed: str, error: str) -> str:
-    """Return a computed value with its error, both as the ledger writes them."""
+    """Return a computed value with the digits that its error allows, at most six.
+
+    Rounding, which differs from machine to machine, is a bound; an error that changes none of the
+    digits is left out.
+    """
     if computed == "none":
         return "none"
-    if float(error) == 0:
-        return f"{float(computed):.6g}"
-    return f"{float(computed):.6g} ± {float(error):.0e}"
+    value, uncertain = float(computed), float(error)
+    if uncertain and abs(value) <= max(uncertain, _ROUNDING):
+        return upper_bound(max(abs(value), uncertain))
+    if value == 0 or uncertain < 0.5 * 10.0 ** (floor(log10(abs(value))) - 5):
+        return f"{value:.6g}"
+    place = floor(log10(uncertain))
+    number = f"{round(value, -place):.{max(0, -place)}f}"
+    return f"{number} ± {uncertain:.0e}" if place < -3 else f"{number} ± {uncertain:.1g}"
+
+
+def figures(artifact: str) -> list[str]:
+    """Return the figures that show any of the artifacts, given as the ledger lists them."""
+    found = []
+    for path in artifact.split("; "):
+        for pattern, figure_of in _FIGURES:
+            if match := re.fullmatch(pattern, path):
+                found.append(match.expand(figure_of))
+    return list(dict.fromkeys(found))
 
 
 def symbols(text: str) -> str:

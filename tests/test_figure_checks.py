@@ -14,10 +14,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import xarray as xr
+import yaml
 from matplotlib.testing.compare import compare_images
 
-from hopper_workflow import plotting
-from tests.figures import images, numbers, registry, structure
+from hopper_workflow import entries, plotting
+from tests.figures import images, numbers, printing, registry, structure
 from tests.figures.registry import ROOT
 
 ENTRY = {
@@ -192,6 +193,54 @@ def test_a_changed_colour_is_found_in_the_image(figure, tmp_path):
     assert "RMS" in str(compare_images(paths[0], paths[2], tol=images.TOLERANCE))
 
 
+@pytest.fixture
+def printed():
+    """A figure that has no fault, with two regions, a curve and a legend beside it."""
+    with matplotlib.rc_context():
+        figure, axes = plotting.subplots(width=plotting.COLUMN_WIDTH)
+        axes.fill_between([0, 1], 0, 1, color="0.9", label="stable")
+        axes.fill_between([0, 1], 1, 2, color="0.5", label="unstable")
+        axes.plot(X, 1 + 0.5 * np.sin(9 * X), label="curve")
+        axes.set_ylim(0, 4)
+        axes.legend(loc="upper left")
+        yield figure
+    plt.close(figure)
+
+
+FAULTS = {
+    "small text": (lambda a: a.text(0.5, 3, "tiny", fontsize=6), "'tiny' has 6 pt, less than 7"),
+    "a small tick": (lambda a: a.tick_params(labelsize=5), "has 5 pt"),
+    "cut text": (lambda a: a.text(1.3, 1, "far away", in_layout=False), "'far away' is cut"),
+    "a hyphen": (lambda a: a.text(0.5, 3, "x = -1"), "'x = -1' has a hyphen for a minus sign"),
+    "a covered curve": (lambda a: a.legend(loc=(0.05, 0.15)), "a legend covers curve 'curve'"),
+    "covered words": (lambda a: a.text(0.05, 3.7, "words"), "a legend covers 'words'"),
+    "equal greys": (
+        lambda a: a.collections[1].set_facecolor("0.87"),
+        "'stable' and 'unstable' differ by 0.03 in luminance",
+    ),
+    "another width": (lambda a: a.figure.set_size_inches(5, 3), "width 5 in is neither"),
+    "a spike of one sample": (
+        lambda a: a.lines[0].set_ydata(np.where(np.arange(50) == 25, 3, 1)),
+        "the largest value of curve 'curve' moves by 50.0%",
+    ),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_fault_in_print_is_found(printed, fault):
+    assert printing.faults(printed) == []
+    make, message = FAULTS[fault]
+    make(printed.axes[0])
+    found = printing.faults(printed)
+    assert any(message in line for line in found), found
+
+
+def test_a_hatch_tells_regions_of_one_grey(printed):
+    _, unstable = printed.axes[0].collections
+    unstable.set(facecolor="0.9", hatch="//")
+    assert printing.faults(printed) == []
+
+
 PICTURES = """
 import os
 import matplotlib.pyplot as plt
@@ -240,10 +289,10 @@ def test_pytest_mpl_compares_and_keeps_a_report(tmp_path):
 @pytest.mark.workflow
 def test_every_figure_and_artifact_is_checked():
     """A new figure needs `make references`, and a look at what that stores."""
-    rules = "\n".join(path.read_text() for path in (ROOT / "workflow/rules").glob("*.smk"))
-    listed = "".join(re.findall(r"FIGURES \+= \[(.*?)\]", rules, re.DOTALL))
+    config = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
     figures = set(registry.plots())
-    assert figures == set(re.findall(r'"(fig_\w+)"', listed))
+    drawn = {drawing.figure for drawing in entries.drawings(config) if drawing.kind != "case"}
+    assert figures == drawn
     wanted = {
         structure.STORED: {f"{name}.yaml" for name in figures},
         images.BASELINE: {f"{name}.png" for name in figures} | {"renderer.txt"},

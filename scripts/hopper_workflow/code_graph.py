@@ -37,7 +37,7 @@ def modules_used_by(root: Path, script: str) -> list[str]:
         ahead |= (graph.find_modules_directly_imported_by(module) | package) - modules
     files = {root / script} | {_file(root, module) for module in modules}
     if "hopper_workflow.plotting" in modules:
-        files.add(root / "scripts/hopper_workflow/paper.mplstyle")
+        files.add(root / "src/hopper_cli/paper.mplstyle")
     return sorted(relative(file) for file in files)
 
 

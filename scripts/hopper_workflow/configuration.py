@@ -10,7 +10,7 @@ from typing import Any
 import jsonschema
 from jsonschema.exceptions import ValidationError, best_match
 
-from hopper_workflow import relations, strict_yaml
+from hopper_workflow import older, relations, strict_yaml
 
 _MOST_VALUES = 20_000
 _MOST_BITS = 1024  # as many as the largest float
@@ -48,8 +48,9 @@ def check(config: Mapping[str, Any], schema_path: str | Path) -> None:
         For the most relevant violation of the schema, a value that is not finite, or two values
         that contradict each other.
     """
-    require_schema(config, schema_path)
     whole = copy.deepcopy(dict(config))
+    older.put_into_new_words(whole)
+    require_schema(whole, schema_path)
     bring_up_to_date(whole, schema_path)
     for key, problem in relations.violations(whole):
         raise ConfigurationError(f"config key '{key}': {problem}")
@@ -58,8 +59,9 @@ def check(config: Mapping[str, Any], schema_path: str | Path) -> None:
 def bring_up_to_date(config: dict[str, Any], schema_path: str | Path) -> list[str]:
     """Add what an older configuration lacks, remove what it need not have; a line for the latter.
 
-    Defaults and deprecated keys are those of the schema.
+    Defaults and deprecated keys are those of the schema; old words are put into new ones.
     """
+    older.put_into_new_words(config)
     return list(_updated(config, _schema(schema_path), ""))
 
 

@@ -1,4 +1,4 @@
-"""Run a script as a Snakemake job: its log goes to the log file and to the screen."""
+"""Run a script as a Snakemake job: its log goes to the log file, what is wrong to the screen."""
 
 import logging
 import sys
@@ -31,7 +31,9 @@ def run(function: Callable[..., None]) -> None:
     sealed.
     """
     job = cast("Job", sys.modules["__main__"].__dict__["snakemake"])
-    handlers: list[logging.Handler] = [logging.StreamHandler()]
+    screen = logging.StreamHandler()
+    screen.setLevel(logging.WARNING)
+    handlers: list[logging.Handler] = [screen]
     handlers += [logging.FileHandler(path, mode="w", encoding="utf-8") for path in job.log]
     logging.basicConfig(level=logging.INFO, format=_FORMAT, handlers=handlers, force=True)
     logging.captureWarnings(True)

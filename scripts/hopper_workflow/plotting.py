@@ -1,7 +1,9 @@
 """One look for all figures: sizes, colours, line styles, reproducible files."""
 
+import json
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from string import ascii_lowercase
 from typing import Any
 
 import matplotlib
@@ -10,14 +12,19 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
+import xarray as xr
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
+from hopper_cli import drawing
 from hopper_workflow.artifacts import replacing
 
-COLUMN_WIDTH, PAGE_WIDTH = 3.5, 7.1  # inches
+COLUMN_WIDTH, PAGE_WIDTH = 3.4, 7.1  # inches: one column of a page, and two
+SMALL = 7  # points, the least text at these widths
 BLUE, ORANGE, GREEN, PURPLE, AMBER, SKY, BLACK = (
     "#0072B2",
     "#D55E00",
@@ -32,7 +39,9 @@ MODEL_STYLES = {
     "von-mises": {"linestyle": "--", "label": "von Mises"},
 }
 GEOMETRY_COLORS = {"wedge": BLUE, "cone": ORANGE}
-STYLE = Path(__file__).with_name("paper.mplstyle")
+GEOMETRIES = ("wedge", "cone")
+NORM_NAMES = {"discrete": "discrete norm", "L2": "$L_2$ norm"}
+STYLE = drawing.STYLE
 
 
 def subplots(
@@ -49,8 +58,67 @@ def subplots(
 
 def letter(axes: Sequence[Axes]) -> None:
     """Mark panels (a), (b), ... above their upper left corners."""
-    for axis, name in zip(axes, "abcdefgh", strict=False):
+    for axis, name in zip(axes, ascii_lowercase, strict=False):
         axis.set_title(f"({name})", loc="left")
+
+
+def grid(panels: int, most: int, *, height: float, **more: Any) -> tuple[Figure, list[Axes]]:
+    """Return a figure and this many axes, at most so many in a row, each row of the given height.
+
+    Labels that rows share stand at the last panel of each column.
+    """
+    columns = min(panels, most)
+    rows = -(-panels // columns)
+    figure, axes = subplots(rows, columns, height=height * rows + 0.6, squeeze=False, **more)
+    for axis in axes.flat[panels:]:
+        axis.remove()
+    for axis in axes.flat[max(0, panels - columns) : panels]:
+        axis.xaxis.set_tick_params(labelbottom=True)
+    return figure, list(axes.flat[:panels])
+
+
+def series(count: int) -> list[dict[str, Any]]:
+    """Return looks of curves that differ without colour: by lightness, and by a sparse marker."""
+    return [
+        {"color": color, "marker": marker, "markevery": (0.05 + 0.03 * index, 0.3)}
+        for index, (color, marker) in enumerate(zip(sequence(count), _MARKERS, strict=False))
+    ]
+
+
+def hopper_of(data: xr.Dataset) -> str:
+    """Return the hopper that an artifact is of, from its parameters."""
+    made_with = json.loads(data.attrs["parameters"])
+    return (
+        rf"{made_with['geometry']}, $\delta$ = {made_with['delta_deg']:g}°, "
+        rf"$\vartheta_w$ = {made_with['half_angle_deg']:g}°"
+    )
+
+
+def signed(value: float, digits: str) -> str:
+    """Return a number with a true minus sign."""
+    return drawing.typeset(f"{value:{digits}}")
+
+
+def below(figure: Figure, handles: Sequence[Artist], columns: int) -> None:
+    """Put a legend below all panels, where it hides no curve."""
+    figure.legend(handles=handles, loc="outside lower center", ncols=columns)
+
+
+def all_keys(axes: Sequence[Axes]) -> list[Artist]:
+    """Return one handle for each label of several panels."""
+    found: dict[str, Artist] = {}
+    for axis in axes:
+        for handle, label in zip(*axis.get_legend_handles_labels(), strict=True):
+            found.setdefault(label, handle)
+    return list(found.values())
+
+
+def key(label: str, **style: Any) -> Line2D:
+    """Return a line for a legend."""
+    return Line2D([], [], label=label, **{"color": "0.2", **style})
+
+
+_MARKERS = "os^DvP*X"
 
 
 def save(figure: Figure, png: str | Path, pdf: str | Path) -> None:
@@ -83,13 +151,18 @@ def degree_ticks(axis: Axes, half_angle: float, step: float) -> None:
 
 def sequence(count: int) -> list[Any]:
     """Return colours that order by lightness, for curves of an increasing parameter."""
-    return [matplotlib.colormaps["viridis"](x) for x in np.linspace(0, 0.88, count)]
+    return [matplotlib.colormaps["viridis"](x) for x in np.linspace(0, 0.82, count)]
 
 
 def level_norm(levels: Sequence[float]) -> Normalize:
     """Return the colour scale of contours at the given levels."""
     margin = 0.5 * (levels[-1] - levels[0]) / max(1, len(levels) - 1)
     return Normalize(levels[0] - margin, levels[-1] + margin)
+
+
+def power_of_ten(level: float) -> str:
+    """Return the label of a contour."""
+    return rf"$10^{{{level:g}}}$"
 
 
 def level_bar(
@@ -99,5 +172,5 @@ def level_bar(
     bar = figure.colorbar(
         ScalarMappable(norm, cmap), ax=axes, location="bottom", shrink=0.6, aspect=40, label=label
     )
-    bar.set_ticks(levels, labels=[rf"$10^{{{level:g}}}$" for level in levels])
+    bar.set_ticks(levels, labels=[power_of_ten(level) for level in levels])
     bar.ax.minorticks_off()

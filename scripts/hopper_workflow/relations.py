@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 from math import atan, radians
 from typing import Any
 
+from hopper_workflow import entries
 from hopper.errors import InvalidParameterError, WallFrictionError
 from hopper.yield_conditions import yield_condition
 
@@ -18,7 +19,7 @@ def violations(config: Mapping[str, Any]) -> Iterator[Violation]:
         yield from _range(key, section)
     yield from _drawing(config)
     yield from _counts(config)
-    yield from _names(config["cases"])
+    yield from entries.problems(config)
     for key, case in _hoppers(config):
         yield from _wall(key, **case)
 
@@ -73,19 +74,12 @@ def _counts(config: Mapping[str, Any]) -> Iterator[Violation]:
         yield "claims.linear.smooth.nodes", f"{smooth['nodes']} must be more than twice the modes"
 
 
-def _names(cases: list[dict[str, Any]]) -> Iterator[Violation]:
-    names: set[str] = set()
-    for index, case in enumerate(cases):
-        if case["name"] in names:
-            yield f"cases[{index}].name", f"{case['name']} is taken: give another name"
-        names.add(case["name"])
-
-
 def _hoppers(config: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
     """Yield every hopper with one wall friction, and its key."""
     for name, case in config["radial"].items():
-        # The claims ledger solves the hopper of Figure 3.2 at every friction of section 3.
-        for hopper in (case, config["radial"]["fig_3_2"]):
+        # The claims ledger solves the hopper of Figure 3.2 at the frictions of both figures.
+        ledger = [config["radial"]["fig_3_2"]] if name in ("fig_3_1", "fig_3_2") else []
+        for hopper in (case, *ledger):
             for model in hopper["models"]:
                 for index, mu in enumerate(case["mu"]):
                     at = {"model": model, "mu": mu, "at": f"mu[{index}]"}

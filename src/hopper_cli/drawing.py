@@ -1,23 +1,42 @@
 """Curves of one hopper on given axes; the look is the caller's."""
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+if TYPE_CHECKING:  # the page of a case needs no numerics
+    from hopper_data.inputs import Case
+
 Array = NDArray[np.float64]
+STYLE = Path(__file__).with_name("paper.mplstyle")
+_MODELS = {"mohr-coulomb": "Mohr-Coulomb", "von-mises": "von Mises"}
+_SMALL: dict[str, Any] = {"textcoords": "offset points", "fontsize": 7}
+
+
+def title(case: "Case", verdict: str) -> str:
+    """Return hopper, material, wall and verdict in one line, in the signs of print."""
+    angles = rf"$\delta$ = {case.delta_deg:.6g}°, $\vartheta_w$ = {case.half_angle_deg:.6g}°"
+    wall = rf"$\mu$ = {case.wall.mu:.6g} ($\phi$ = {case.wall.phi_deg:.4g}°)"
+    return f"{case.geometry}, {_MODELS[case.model]}, {angles}, {wall}: {verdict}"
+
+
+def typeset(number: str) -> str:
+    """Return a number with true signs."""
+    return number.replace("+-", "±").replace("-", "\N{MINUS SIGN}")
 
 
 def draw_fields(axes: Sequence[Axes], delta_deg: float, fields: Mapping[str, Array]) -> None:
-    """Draw stress, psi and velocity over the polar angle, on three axes.
+    """Draw stress, psi and, where it is known, velocity over the polar angle, on two or three axes.
 
-    ``fields`` holds theta (degrees), sigma, psi (radians) and, where it is known, u. Lines mark
-    the psi at which r = const is characteristic for ``delta_deg``, and at which the velocity is
-    singular.
+    ``fields`` holds theta (degrees), sigma, psi (radians) and perhaps u. Lines mark the psi at
+    which r = const is characteristic for ``delta_deg``, and at which the velocity is singular.
     """
     theta, psi = fields["theta"], np.degrees(fields["psi"])
-    stress, angle, velocity = axes
+    stress, angle, *velocity = axes
     for axis in axes:
         axis.set_xlim(theta[0], theta[-1])
         axis.set_xlabel(r"angle $\vartheta$ (degrees)")
@@ -27,35 +46,28 @@ def draw_fields(axes: Sequence[Axes], delta_deg: float, fields: Mapping[str, Arr
     angle.plot(theta, psi, color="C0")
     highest = 1.5 * psi.max()
     for level, name, style in (
-        (45 - delta_deg / 2, r"$\pm(\pi/4 - \delta/2)$", "--"),
-        (45, r"$\pm\pi/4$", ":"),
+        (45 - delta_deg / 2, r"$\pi/4 - \delta/2$", "--"),
+        (45, r"$\pi/4$", ":"),
     ):
         if level < highest:
-            angle.axhline(level, color="0.4", linewidth=0.8, linestyle=style, label=name)
-            angle.axhline(-level, color="0.4", linewidth=0.8, linestyle=style)
-            angle.legend(loc="lower right", bbox_to_anchor=(1, 0.1))
+            for sign in (-1, 1):
+                angle.axhline(sign * level, color="0.4", linewidth=0.8, linestyle=style)
+            # psi is odd: above it, left of the axis, there is room.
+            angle.annotate(name, (theta[0], level), (3, -3), va="top", **_SMALL)
     angle.set_ylabel(r"Sokolovskii angle $\psi$ (degrees)")
-    velocity.set_ylabel(r"velocity $u(\vartheta)/u(0)$")
-    if "u" in fields:
-        velocity.plot(theta, fields["u"], color="C0")
-        velocity.set_ylim(bottom=0)
-    else:
-        say(velocity, "not known: $\\psi$ reaches\nor nearly reaches $\\pi/4$")
+    for axis in velocity:
+        axis.plot(theta, fields["u"], color="C0")
+        axis.set_ylim(bottom=0)
+        axis.set_ylabel(r"velocity $u(\vartheta)/u(0)$")
 
 
 def draw_spectrum(axis: Axes, upper: NDArray[np.complex128], line: float) -> None:
     """Draw modes, given by those with Im >= 0, and the asymptotic line."""
     modes = np.concatenate([upper, upper.conj()])
     axis.axvline(0, color="0.5", linewidth=0.6)
-    axis.axvline(line, color="black", linewidth=0.8, linestyle="--", label=r"line $\Lambda$")
-    axis.plot(modes.real, modes.imag, "o", markersize=2.6, color="C0", label="modes")
+    axis.axvline(line, color="black", linewidth=0.8, linestyle="--")
+    axis.plot(modes.real, modes.imag, "o", markersize=2.2, color="C0")
     axis.set_xlabel(r"Re $\lambda$")
     axis.set_ylabel(r"Im $\lambda$")
+    axis.set_title(rf"modes, and the line $\Lambda$ = {typeset(f'{line:.4g}')} (dashed)")
     axis.margins(x=0.12)
-    axis.legend(loc="lower left")
-
-
-def say(axis: Axes, words: str) -> None:
-    """Write words in the middle of axes that have nothing to show."""
-    axis.set(xticks=[], yticks=[])
-    axis.text(0.5, 0.5, words, transform=axis.transAxes, ha="center", va="center", wrap=True)

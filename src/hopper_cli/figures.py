@@ -15,14 +15,6 @@ from hopper_data.assessments import Part
 from hopper_data.files import replacing
 from hopper_data.inputs import Case
 
-_STYLE = {
-    "font.size": 8,
-    "figure.titlesize": 8,
-    "legend.frameon": False,
-    "savefig.dpi": 200,
-    "pdf.fonttype": 42,
-    "svg.hashsalt": "hopper",
-}
 # Nothing that varies between runs.
 _METADATA: dict[str, dict[str, None]] = {
     ".png": {"Software": None},
@@ -32,21 +24,28 @@ _METADATA: dict[str, dict[str, None]] = {
 
 
 def write(path: Path, case: Case, found: Part) -> None:
-    """Plot the fields, or the spectrum."""
-    with style.context(["default", _STYLE]):
+    """Plot the fields, or the spectrum, in the style of the paper, with the verdict."""
+    with style.context(["default", drawing.STYLE]):
         if isinstance(found, RadialAssessment):
-            figure = Figure(figsize=(7.1, 2.6), layout="constrained")
-            known = assessments.profiles(found)
-            fields = {
-                variable.name: variable.of(known)
-                for variable in assessments.PROFILES
-                if known[variable.name] is not None
-            }
-            drawing.draw_fields(figure.subplots(1, 3), case.delta_deg, fields)
+            figure, verdict = _fields(case, found), "radial solution"
+            if found.velocity is None:
+                verdict += r", velocity not known: $\psi$ reaches or nearly reaches $\pi/4$"
         else:
-            figure = Figure(figsize=(7.1, 4.0), layout="constrained")
+            figure, verdict = Figure(figsize=(7.1, 4.0)), found.verdict.replace("_", " ")
             line = found.result.line.abscissa
             drawing.draw_spectrum(figure.subplots(), found.spectrum.eigenvalues, line)
-        figure.suptitle(str(case))
+        figure.suptitle(drawing.title(case, verdict), fontsize=8)
         with replacing(path) as temporary:
             figure.savefig(temporary, metadata=_METADATA[path.suffix.lower()])
+
+
+def _fields(case: Case, found: RadialAssessment) -> Figure:
+    known = assessments.profiles(found)
+    fields = {
+        variable.name: variable.of(known)
+        for variable in assessments.PROFILES
+        if known[variable.name] is not None
+    }
+    figure = Figure(figsize=(7.1, 2.6))
+    drawing.draw_fields(figure.subplots(1, 3 if "u" in fields else 2), case.delta_deg, fields)
+    return figure

@@ -31,8 +31,8 @@ COARSE: dict[str, Any] = {
     "spectra.fig_4_2.exact_modes": 12,
     "transient.fig_4_3.elapsed.points": 11,
     "transient.fig_4_3_norms.elapsed.points": 5,
-    "pseudospectrum.real.points": 8,
-    "pseudospectrum.imag.points": 8,
+    "pseudospectrum.fig_pseudospectrum.real.points": 8,
+    "pseudospectrum.fig_pseudospectrum.imag.points": 8,
     "sensitivity.frequencies.points": 11,
     "sensitivity.elapsed.points": 5,
     "friction_curves.fig_4_4.mu.points": 8,
@@ -106,13 +106,7 @@ class Workflow:
         """Rules, with their figure if they have one, that a dry run would execute."""
         done = self.snakemake("-n", *targets)
         assert done.returncode == 0, done.stderr
-        blocks = re.split(r"\n(?=(?:local)?rule )", done.stdout)
-        found = set()
-        for block in blocks:
-            if match := re.match(r"(?:local)?rule (\w+):", block):
-                wildcards = re.search(r"wildcards: (.*)", block)
-                values = re.findall(r"=([^,\s]+)", wildcards[1]) if wildcards else []
-                found.add("/".join([match[1], *values]))
+        found = set(re.findall(r"^Job \d+: (\S+):", done.stdout, re.MULTILINE))
         return found - {"all"}
 
     def set(self, key: str, value: Any) -> None:

@@ -119,8 +119,19 @@ def test_symbols(text, shown):
     assert symbols(text) == shown
 
 
+@pytest.mark.parametrize("kernel", [1.0, 0.4, 1.9])
+def test_rounding_is_a_bound_that_does_not_depend_on_the_machine(kernel):
+    assert figure(f"{4.44089e-16 * kernel:.10g}", "1.0e-14") == "< 1e-13"
+    assert figure("0", f"{1.6e-13 * kernel:.1e}") == "< 1e-12"
+    assert figure("0.0212284", f"{1e-13 * kernel:.1e}") == "0.0212284"
+
+
 def test_figures_and_cells():
-    assert figure("33.74898860", "3.4e-13") == "33.749 \u00b1 3e-13"
+    assert figure("33.74898860", "3.4e-13") == "33.749"
+    assert figure("0.5541531", "0.0904") == "0.55 \u00b1 0.09"
+    assert figure("-0.0009022551", "4e-05") == "-0.00090 \u00b1 4e-05"
+    assert figure("15.9455", "1.2") == "16 \u00b1 1"
+    assert figure("0", "0") == "0"
     assert figure("798", "0") == "798"
     assert figure("none", "none") == "none"
     assert cell("|a_1| < 2*b") == "\\|a\\_1\\| \\< 2\\*b"

@@ -50,7 +50,7 @@ def test_a_mark_in_a_figure_reruns_its_plot_only(rebuilt):
 
 
 def test_the_plot_style_reruns_all_plots_only(rebuilt):
-    rebuilt.edit("scripts/hopper_workflow/paper.mplstyle", "font.size: 8", "font.size: 9")
+    rebuilt.edit("src/hopper_cli/paper.mplstyle", "font.size: 8", "font.size: 9")
     assert {job.split("/")[0] for job in rebuilt.reruns()} == PLOTS
 
 

@@ -2,10 +2,9 @@
 # Hoppers of one's own: the list `cases` of the configuration
 # =================================================================================================
 
-FIGURES += [f"case_{case['name']}" for case in config["cases"]]
-
 
 rule compute_case:
+    """All that is known about a hopper of the list `cases`."""
     input:
         code=code_of("compute_case"),
     output:
@@ -22,11 +21,14 @@ rule compute_case:
         case=lambda wildcards: {
             key: value for key, value in own_hopper(wildcards).items() if key != "description"
         },
+    message:
+        "compute_case/{wildcards.case}: All that is known about a hopper of the list cases"
     script:
         f"{SCRIPTS}/compute_case.py"
 
 
 rule plot_case:
+    """The page of a hopper of the list `cases`."""
     input:
         artifact="results/cases/{case}.nc",
         code=code_of("plot_case"),
@@ -35,7 +37,7 @@ rule plot_case:
             "figures/case_{case}.png",
             caption="../report/case.rst",
             category="Cases",
-            labels={"case": "{case}"},
+            labels=labels_of_case,
         ),
         pdf="figures/case_{case}.pdf",
     log:
@@ -46,7 +48,8 @@ rule plot_case:
         "../../envs/hopper.yaml"
     threads: 1
     params:
-        description=lambda wildcards: own_hopper(wildcards).get("description", ""),
-        delta_deg=lambda wildcards: own_hopper(wildcards)["delta_deg"],
+        case=own_hopper,
+    message:
+        "plot_case/{wildcards.case}: The page of a hopper of the list cases"
     script:
         f"{SCRIPTS}/plot_case.py"

@@ -2,8 +2,6 @@
 # The verdict: what the paper claims, held against the artifacts
 # =================================================================================================
 
-CLAIMS = code_graph.relative(ROOT / "resources/claims.yaml")
-CLAIMS_SCHEMA = code_graph.relative(ROOT / "workflow/schemas/claims.schema.yaml")
 TEMPLATES = {
     kind: code_graph.relative(ROOT / f"workflow/report/claims.{kind}.j2") for kind in ["html", "md"]
 }
@@ -11,13 +9,9 @@ LEDGER = ["results/claims.csv", "results/claims.html"]
 HOPPER = config["radial"]["fig_3_2"]
 LINEAR = config["claims"]["linear"]
 
-try:
-    JUDGED = paths_of(read_claims(CLAIMS, CLAIMS_SCHEMA))
-except configuration.ConfigurationError as error:
-    raise WorkflowError(str(error)) from None
-
 
 rule compute_model_checks:
+    """Sections 2 and 3: what only the ledger needs of the two models."""
     input:
         code=code_of("compute_model_checks"),
     output:
@@ -36,12 +30,17 @@ rule compute_model_checks:
         delta_deg=HOPPER["delta_deg"],
         half_angle_deg=HOPPER["half_angle_deg"],
         models=HOPPER["models"],
-        mu=sorted({mu for case in config["radial"].values() for mu in case["mu"]}),
+        mu=sorted(
+            {mu for figure in ["fig_3_1", "fig_3_2"] for mu in config["radial"][figure]["mu"]}
+        ),
+    message:
+        "compute_model_checks: Sections 2 and 3: what only the ledger needs of the two models"
     script:
         f"{SCRIPTS}/compute_model_checks.py"
 
 
 rule compute_linear_checks:
+    """Section 4: what only the ledger needs of the linearised equations."""
     input:
         wedge=f"results/spectrum/{LINEAR['spectrum']}/wedge.nc",
         cone=f"results/spectrum/{LINEAR['spectrum']}/cone.nc",
@@ -63,12 +62,15 @@ rule compute_linear_checks:
         smooth=LINEAR["smooth"],
         folds=LINEAR["folds"],
         windows=LINEAR["windows"],
-        kept_modes=PSEUDO["modes"],
+        norms=PSEUDO["formulations"],
+    message:
+        "compute_linear_checks: Section 4: what only the ledger needs of the linearised equations"
     script:
         f"{SCRIPTS}/compute_linear_checks.py"
 
 
 rule judge_claims:
+    """The verdict on every claim of the paper."""
     input:
         claims=CLAIMS,
         schema=CLAIMS_SCHEMA,
@@ -85,11 +87,14 @@ rule judge_claims:
     threads: 1
     resources:
         **asks("judge_claims", map_points()),
+    message:
+        "judge_claims: The verdict on every claim of the paper"
     script:
         f"{SCRIPTS}/judge_claims.py"
 
 
 rule render_claims:
+    """The ledger for reading, HTML and Markdown."""
     input:
         table="results/claims.csv",
         claims=CLAIMS,
@@ -107,5 +112,7 @@ rule render_claims:
     conda:
         "../../envs/hopper.yaml"
     threads: 1
+    message:
+        "render_claims: The ledger for reading, HTML and Markdown"
     script:
         f"{SCRIPTS}/render_claims.py"

@@ -9,8 +9,20 @@ except configuration.ConfigurationError as error:
 for line in configuration.bring_up_to_date(config, SCHEMA):
     logger.warning(line)
 
-FIGURES = []
+FIGURES = [drawing.figure for drawing in entries.drawings(config)]
+MAP = config["stability_map"]
+FORMULATIONS = ["paper", "physical"]
 COSTS = requests.read_costs(ROOT / "resources/benchmarks.tsv")
+
+
+CLAIMS = code_graph.relative(ROOT / "resources/claims.yaml")
+CLAIMS_SCHEMA = code_graph.relative(ROOT / "workflow/schemas/claims.schema.yaml")
+try:
+    JUDGED = paths_of(read_claims(CLAIMS, CLAIMS_SCHEMA))
+except configuration.ConfigurationError as error:
+    raise WorkflowError(str(error)) from None
+# The ledger needs maps and borders of its own half angles, whatever the figures show.
+LEDGER_ANGLES = half_angles_in(JUDGED)
 
 
 # What the configuration does not name no rule makes; figures differ from rule to rule.
@@ -25,8 +37,8 @@ wildcard_constraints:
             }
         )
     ),
-    mode=targets.words(config["pseudospectrum"]["modes"]),
-    angle=targets.words(config["stability_map"]["half_angles_deg"]),
+    formulation=targets.words(FORMULATIONS),
+    angle=targets.words(dict.fromkeys([*map(str, MAP["half_angles_deg"]), *LEDGER_ANGLES])),
     chunk=targets.words(range(config["stability_map"]["chunks"])),
     case=targets.words(case["name"] for case in config["cases"]),
 

@@ -13,15 +13,18 @@ from snakemake.logging import logger
 # Ours before others of their names; the host of a module keeps its sys.path.
 sys.path[:] = [str(ROOT / "scripts"), *sys.path]
 from hopper_workflow import (
+    cases,
     code_graph,
     configuration,
+    console,
     effective,
+    entries,
     live,
     requests,
     surroundings,
     targets,
 )
-from hopper_workflow.claims.words import paths_of, read_claims
+from hopper_workflow.claims.words import half_angles_in, paths_of, read_claims
 
 sys.path.remove(str(ROOT / "scripts"))
 
@@ -33,6 +36,7 @@ if Path(sys.executable).exists():
 
 # In a module environment and configuration are somebody else's, of which we know only our part.
 if not workflow.modifier.skip_configfile:
+    console.be_brief(logger)
     if foreign := surroundings.set_aside(os.environ):
         logger.info(f"Set aside from the environment: {' '.join(foreign)}")
     sys.path[:] = surroundings.own_path(sys.path, os.environ)

@@ -2,15 +2,13 @@
 # Section 4: where hoppers are stable, Figures 4.4 and 4.5
 # =================================================================================================
 
-FIGURES += ["fig_4_4", "fig_4_4_30", "fig_4_5", "fig_4_5_map", "fig_domain_angle"]
-
-MAP = config["stability_map"]
 CASES = [
     f"{geometry}_{angle}" for angle in MAP["half_angles_deg"] for geometry in ["wedge", "cone"]
 ]
 
 
 rule compute_friction_curve:
+    """Section 4: max Re(lambda) over wall friction, entries of `friction_curves`."""
     input:
         code=code_of("compute_friction_curve"),
     output:
@@ -31,6 +29,8 @@ rule compute_friction_curve:
         deltas_deg=curve("deltas_deg"),
         mu=curve("mu"),
         check=curve("check"),
+    message:
+        "compute_friction_curve/{wildcards.figure}/{wildcards.geometry}: Section 4: max Re(lambda) over wall friction"
     script:
         f"{SCRIPTS}/compute_friction_curve.py"
 
@@ -49,9 +49,12 @@ use rule compute_friction_curve as compute_second_row with:
         deltas_deg=curve("deltas_deg"),
         mu=curve("second_row"),
         check=None,
+    message:
+        "compute_second_row/{wildcards.figure}/{wildcards.geometry}: Section 4: up to the limit of friction"
 
 
 rule compute_map_chunk:
+    """Section 4: some rows of a stability map."""
     input:
         code=code_of("compute_map_chunk"),
     output:
@@ -73,11 +76,14 @@ rule compute_map_chunk:
         phi_deg=MAP["phi_deg"],
         chunk=lambda wildcards: int(wildcards.chunk),
         chunks=MAP["chunks"],
+    message:
+        "compute_map_chunk/{wildcards.geometry}/{wildcards.angle}/{wildcards.chunk}: Section 4: some rows of a stability map"
     script:
         f"{SCRIPTS}/compute_map_chunk.py"
 
 
 rule merge_map:
+    """Section 4: a stability map of its parts."""
     input:
         chunks=expand("results/map/{{geometry}}_{{angle}}/{chunk}.nc", chunk=range(MAP["chunks"])),
         code=code_of("merge_map"),
@@ -98,11 +104,14 @@ rule merge_map:
         half_angle_deg=lambda wildcards: float(wildcards.angle),
         delta_deg=MAP["delta_deg"],
         phi_deg=MAP["phi_deg"],
+    message:
+        "merge_map/{wildcards.geometry}/{wildcards.angle}: Section 4: a stability map of its parts"
     script:
         f"{SCRIPTS}/merge_map.py"
 
 
 rule compute_borders:
+    """Section 4: neutral curve and borders of the stable domain."""
     input:
         code=code_of("compute_borders"),
     output:
@@ -121,11 +130,14 @@ rule compute_borders:
         neutral_step_deg=config["borders"]["neutral_step_deg"],
         delta_deg=config["borders"]["delta_deg"],
         check=config["borders"]["check"],
+    message:
+        "compute_borders/{wildcards.geometry}/{wildcards.angle}: Section 4: neutral curve and borders of the stable domain"
     script:
         f"{SCRIPTS}/compute_borders.py"
 
 
 rule compute_paper_border:
+    """Section 4: the neutral curve of cones by the paper's algorithm."""
     input:
         border="results/borders/cone_{angle}.nc",
         code=code_of("compute_paper_border"),
@@ -142,11 +154,14 @@ rule compute_paper_border:
     params:
         **config["paper_border"],
         half_angle_deg=lambda wildcards: float(wildcards.angle),
+    message:
+        "compute_paper_border/{wildcards.angle}: Section 4: the neutral curve of cones by the paper's algorithm"
     script:
         f"{SCRIPTS}/compute_paper_border.py"
 
 
 rule compute_domain_angle:
+    """Section 4: the stable domain of cones over the half angle."""
     input:
         code=code_of("compute_domain_angle"),
     output:
@@ -161,11 +176,14 @@ rule compute_domain_angle:
     threads: 1
     params:
         **config["domain_angle"],
+    message:
+        "compute_domain_angle: Section 4: the stable domain of cones over the half angle"
     script:
         f"{SCRIPTS}/compute_domain_angle.py"
 
 
 rule plot_fig_4_4:
+    """Figure 4.4, and each other entry of `friction_curves`."""
     input:
         unpack(second_row),
         wedge="results/friction/{figure}/wedge.nc",
@@ -177,10 +195,10 @@ rule plot_fig_4_4:
             caption="../report/fig_4_4.rst",
             category="4 Stability",
             labels=lambda wildcards: labels(
-                f"4.4, {curve('half_angle_deg')(wildcards):g}°",
-                "max Re λ over wall friction",
+                number_of(wildcards.figure),
+                f"max Re λ over wall friction, half angle {curve('half_angle_deg')(wildcards):g}°",
                 "wedge, cone",
-                "both",
+                "paper and physical",
             ),
         ),
         pdf="figures/{figure}.pdf",
@@ -195,11 +213,14 @@ rule plot_fig_4_4:
     threads: 1
     params:
         half_angle_deg=curve("half_angle_deg"),
+    message:
+        "plot_fig_4_4/{wildcards.figure}: figure over wall friction"
     script:
         f"{SCRIPTS}/plot_fig_4_4.py"
 
 
 rule plot_fig_4_5:
+    """Figure 4.5, the stable domain of cones."""
     input:
         borders=expand("results/borders/cone_{angle}.nc", angle=MAP["half_angles_deg"]),
         papers=expand("results/paper_border/cone_{angle}.nc", angle=MAP["half_angles_deg"]),
@@ -222,11 +243,14 @@ rule plot_fig_4_5:
     params:
         half_angles_deg=MAP["half_angles_deg"],
         largest_phi_deg=MAP["phi_deg"]["stop"],
+    message:
+        "plot_fig_4_5: Figure 4.5, the stable domain of cones"
     script:
         f"{SCRIPTS}/plot_fig_4_5.py"
 
 
 rule plot_fig_4_5_map:
+    """Figure 4.5 as maps, wedge and cone."""
     input:
         maps=expand("results/map/{case}.nc", case=CASES),
         borders=expand("results/borders/{case}.nc", case=CASES),
@@ -251,11 +275,14 @@ rule plot_fig_4_5_map:
     params:
         panels=[f"{case.replace('_', ', half angle ')}°" for case in CASES],
         color_range=config["fig_4_5_map"]["color_range"],
+    message:
+        "plot_fig_4_5_map: Figure 4.5 as maps, wedge and cone"
     script:
         f"{SCRIPTS}/plot_fig_4_5_map.py"
 
 
 rule plot_fig_domain_angle:
+    """The stable domain over the half angle."""
     input:
         artifact="results/domain_angle.nc",
         code=code_of("plot_fig_domain_angle"),
@@ -276,5 +303,7 @@ rule plot_fig_domain_angle:
     conda:
         "../../envs/hopper.yaml"
     threads: 1
+    message:
+        "plot_fig_domain_angle: The stable domain over the half angle"
     script:
         f"{SCRIPTS}/plot_fig_domain_angle.py"

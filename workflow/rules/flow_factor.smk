@@ -2,10 +2,9 @@
 # Validation: flow factors against Jenike's published chart
 # =================================================================================================
 
-FIGURES += ["fig_jenike"]
-
 
 rule compute_flow_factor:
+    """Section 3: flow factors beside Jenike's published chart."""
     input:
         chart=code_graph.relative(ROOT / "resources/jenike_chart_delta40.csv"),
         code=code_of("compute_flow_factor"),
@@ -21,11 +20,14 @@ rule compute_flow_factor:
     threads: 1
     params:
         **config["fig_jenike"],
+    message:
+        "compute_flow_factor: Section 3: flow factors beside Jenike's published chart"
     script:
         f"{SCRIPTS}/compute_flow_factor.py"
 
 
 rule plot_fig_jenike:
+    """Flow factors, computed and published."""
     input:
         artifact="results/flow_factor/jenike.nc",
         code=code_of("plot_fig_jenike"),
@@ -44,5 +46,7 @@ rule plot_fig_jenike:
     conda:
         "../../envs/hopper.yaml"
     threads: 1
+    message:
+        "plot_fig_jenike: Flow factors, computed and published"
     script:
         f"{SCRIPTS}/plot_fig_jenike.py"

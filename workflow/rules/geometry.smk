@@ -2,10 +2,9 @@
 # Figure 1.1: geometry and coordinates
 # =================================================================================================
 
-FIGURES += ["fig_1_1"]
-
 
 rule plot_fig_1_1:
+    """Figure 1.1, the two geometries."""
     input:
         code=code_of("plot_fig_1_1"),
     output:
@@ -25,5 +24,7 @@ rule plot_fig_1_1:
     threads: 1
     params:
         **config["fig_1_1"],
+    message:
+        "plot_fig_1_1: Figure 1.1, the two geometries"
     script:
         f"{SCRIPTS}/plot_fig_1_1.py"

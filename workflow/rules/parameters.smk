@@ -3,11 +3,26 @@
 # =================================================================================================
 
 import math
+import re
 
 
-def labels(figure, shows, geometry, mode="—"):
+def labels(figure, shows, geometry, formulation="—"):
     """Columns of a figure's row in the report; its section is the category."""
-    return {"figure": figure, "shows": shows, "geometry": geometry, "mode": mode}
+    return {"figure": figure, "shows": shows, "geometry": geometry, "formulation": formulation}
+
+
+def number_of(figure):
+    """Number of a figure of the paper, with what makes it another one; a free name as it is."""
+    match = re.fullmatch(r"fig_(?:(\d)_(\d))?_?(\w*)", figure)
+    if match is None:
+        return figure.replace("_", " ")
+    number = f"{match[1]}.{match[2]} " if match[1] else ""
+    return f"{number}{match[3].replace('_', ' ')}".strip()
+
+
+def radial(key):
+    """A parameter of a figure of radial fields."""
+    return lambda wildcards: config["radial"][wildcards.figure][key]
 
 
 def hopper_of(spectrum):
@@ -36,6 +51,27 @@ def transient(key):
     return lambda wildcards: config["transient"][wildcards.figure][key]
 
 
+def kept_in(wildcards):
+    """The formulations of a transient figure."""
+    return " and ".join(transient("kept_in")(wildcards))
+
+
+def pseudospectrum(key):
+    """A parameter of a figure of pseudospectra."""
+    return lambda wildcards: config["pseudospectrum"][wildcards.figure][key]
+
+
+def formulations(wildcards):
+    """The formulations of a figure of pseudospectra, the paper's first."""
+    chosen = pseudospectrum("formulations")(wildcards)
+    return [each for each in FORMULATIONS if each in chosen]
+
+
+def weighting(key):
+    """Norm or weight of psi of one of them."""
+    return lambda wildcards: pseudospectrum("formulations")(wildcards)[wildcards.formulation][key]
+
+
 def curve(key):
     """A parameter of a figure over wall friction."""
     return lambda wildcards: config["friction_curves"][wildcards.figure][key]
@@ -52,6 +88,19 @@ def second_row(wildcards):
 def own_hopper(wildcards):
     """One of the hoppers of `cases`, by its name."""
     return next(case for case in config["cases"] if case["name"] == wildcards.case)
+
+
+def labels_of_case(wildcards):
+    """Columns of a case's row in the report, which is written when its artifact is there."""
+    case = own_hopper(wildcards)
+    return {
+        "case": case["name"],
+        "verdict": cases.verdict(f"results/cases/{case['name']}.nc"),
+        "hopper": case["geometry"],
+        "δ": f"{case['delta_deg']:g}°",
+        "half angle": f"{case['half_angle_deg']:g}°",
+        "μ": f"{case['mu']:g}",
+    }
 
 
 def mesh_of(spectrum):

@@ -2,10 +2,9 @@
 # Section 4: smooth-wall theory, discrete spectra and their filter, Figures 4.1 and 4.2
 # =================================================================================================
 
-FIGURES += ["fig_4_1", "fig_4_2", "fig_4_2_physical"]
-
 
 rule compute_spectrum:
+    """Section 4: all eigenvalues of M on one mesh."""
     input:
         code=code_of("compute_spectrum"),
     output:
@@ -26,11 +25,14 @@ rule compute_spectrum:
         half_angle_deg=lambda wildcards: hopper_of(wildcards.figure)["half_angle_deg"],
         mu=lambda wildcards: hopper_of(wildcards.figure)["mu"],
         nodes=lambda wildcards: int(wildcards.nodes),
+    message:
+        "compute_spectrum/{wildcards.figure}/{wildcards.geometry}/{wildcards.nodes}: Section 4: all eigenvalues of M on one mesh"
     script:
         f"{SCRIPTS}/compute_spectrum.py"
 
 
 rule filter_spectrum:
+    """Section 4: the eigenvalues that two meshes agree on."""
     input:
         fine=mesh("nodes"),
         coarse=mesh("coarse_nodes"),
@@ -55,11 +57,14 @@ rule filter_spectrum:
         nodes=lambda wildcards: config["spectra"][wildcards.figure]["nodes"],
         coarse_nodes=lambda wildcards: config["spectra"][wildcards.figure]["coarse_nodes"],
         tolerance=lambda wildcards: config["spectra"][wildcards.figure]["tolerance"],
+    message:
+        "filter_spectrum/{wildcards.figure}/{wildcards.geometry}: Section 4: the eigenvalues that two meshes agree on"
     script:
         f"{SCRIPTS}/filter_spectrum.py"
 
 
 rule compute_exact_spectrum:
+    """Section 4: exact smooth-wall eigenvalues."""
     input:
         code=code_of("compute_exact_spectrum"),
     output:
@@ -79,11 +84,14 @@ rule compute_exact_spectrum:
         delta_deg=lambda wildcards: hopper_of(wildcards.figure)["delta_deg"],
         half_angle_deg=lambda wildcards: hopper_of(wildcards.figure)["half_angle_deg"],
         modes=lambda wildcards: config["spectra"][wildcards.figure]["exact_modes"],
+    message:
+        "compute_exact_spectrum/{wildcards.figure}/{wildcards.geometry}: Section 4: exact smooth-wall eigenvalues"
     script:
         f"{SCRIPTS}/compute_exact_spectrum.py"
 
 
 rule compute_stability:
+    """Section 4: low modes and the line, the verdict of stability."""
     input:
         code=code_of("compute_stability"),
     output:
@@ -103,11 +111,14 @@ rule compute_stability:
         delta_deg=lambda wildcards: hopper_of(wildcards.figure)["delta_deg"],
         half_angle_deg=lambda wildcards: hopper_of(wildcards.figure)["half_angle_deg"],
         mu=lambda wildcards: hopper_of(wildcards.figure)["mu"],
+    message:
+        "compute_stability/{wildcards.figure}/{wildcards.geometry}: Section 4: low modes and the line, the verdict of stability"
     script:
         f"{SCRIPTS}/compute_stability.py"
 
 
 rule compute_smooth_wall:
+    """Section 4: smooth-wall theory."""
     input:
         code=code_of("compute_smooth_wall"),
     output:
@@ -122,11 +133,14 @@ rule compute_smooth_wall:
     threads: 1
     params:
         **config["smooth_wall"],
+    message:
+        "compute_smooth_wall: Section 4: smooth-wall theory"
     script:
         f"{SCRIPTS}/compute_smooth_wall.py"
 
 
 rule plot_fig_4_1:
+    """Figure 4.1, abscissae of smooth walls."""
     input:
         artifact="results/smooth_wall.nc",
         code=code_of("plot_fig_4_1"),
@@ -145,59 +159,78 @@ rule plot_fig_4_1:
     conda:
         "../../envs/hopper.yaml"
     threads: 1
+    message:
+        "plot_fig_4_1: Figure 4.1, abscissae of smooth walls"
     script:
         f"{SCRIPTS}/plot_fig_4_1.py"
 
 
 rule plot_fig_4_2:
+    """Figure 4.2, and each other entry of `spectra`: the paper's formulation."""
     input:
-        wedge="results/spectrum/fig_4_2/wedge.nc",
-        cone="results/spectrum/fig_4_2/cone.nc",
-        wedge_exact="results/spectrum/fig_4_2/wedge_exact.nc",
-        cone_exact="results/spectrum/fig_4_2/cone_exact.nc",
+        wedge="results/spectrum/{figure}/wedge.nc",
+        cone="results/spectrum/{figure}/cone.nc",
+        wedge_exact="results/spectrum/{figure}/wedge_exact.nc",
+        cone_exact="results/spectrum/{figure}/cone_exact.nc",
         code=code_of("plot_fig_4_2"),
     output:
         png=report(
-            "figures/fig_4_2.png",
+            "figures/{figure}.png",
             caption="../report/fig_4_2.rst",
             category="4 Stability",
-            labels=labels("4.2", "discrete spectra", "wedge, cone", "paper"),
+            labels=lambda wildcards: labels(
+                number_of(wildcards.figure), "discrete spectra", "wedge, cone", "paper"
+            ),
         ),
-        pdf="figures/fig_4_2.pdf",
+        pdf="figures/{figure}.pdf",
     log:
-        "logs/plot_fig_4_2.log",
+        "logs/plot_fig_4_2/{figure}.log",
     benchmark:
-        "logs/plot_fig_4_2.benchmark.tsv"
+        "logs/plot_fig_4_2/{figure}.benchmark.tsv"
+    wildcard_constraints:
+        figure=targets.words(config["spectra"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1
     params:
         zoom_imag=config["fig_4_2"]["zoom_imag"],
+    message:
+        "plot_fig_4_2/{wildcards.figure}: figure of a spectrum"
     script:
         f"{SCRIPTS}/plot_fig_4_2.py"
 
 
 rule plot_fig_4_2_physical:
+    """The same spectra in the physical formulation."""
     input:
-        wedge="results/spectrum/fig_4_2/wedge.nc",
-        cone="results/spectrum/fig_4_2/cone.nc",
-        wedge_line="results/stability/fig_4_2/wedge.nc",
-        cone_line="results/stability/fig_4_2/cone.nc",
+        wedge="results/spectrum/{figure}/wedge.nc",
+        cone="results/spectrum/{figure}/cone.nc",
+        wedge_line="results/stability/{figure}/wedge.nc",
+        cone_line="results/stability/{figure}/cone.nc",
         code=code_of("plot_fig_4_2_physical"),
     output:
         png=report(
-            "figures/fig_4_2_physical.png",
+            "figures/{figure}_physical.png",
             caption="../report/fig_4_2_physical.rst",
             category="4 Stability",
-            labels=labels("4.2 physical", "spectra and the line Λ", "wedge, cone", "physical"),
+            labels=lambda wildcards: labels(
+                f"{number_of(wildcards.figure)} physical",
+                "spectra and the line Λ",
+                "wedge, cone",
+                "physical",
+            ),
         ),
-        pdf="figures/fig_4_2_physical.pdf",
+        pdf="figures/{figure}_physical.pdf",
     log:
-        "logs/plot_fig_4_2_physical.log",
+        "logs/plot_fig_4_2_physical/{figure}.log",
     benchmark:
-        "logs/plot_fig_4_2_physical.benchmark.tsv"
+        "logs/plot_fig_4_2_physical/{figure}.benchmark.tsv"
+    wildcard_constraints:
+        figure=targets.words(config["spectra"]),
     conda:
         "../../envs/hopper.yaml"
     threads: 1
+    message:
+        "plot_fig_4_2_physical/{wildcards.figure}: figure of a spectrum, physical formulation"
     script:
         f"{SCRIPTS}/plot_fig_4_2_physical.py"

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import ceil, log10
 from typing import Literal, get_args
 
 Verdict = Literal["holds", "holds with limits", "does not hold", "cannot be decided"]
@@ -45,6 +46,13 @@ class Printed:
 def rounding(value: float) -> float:
     """Return what double precision leaves uncertain of a short computation's result."""
     return 1e-14 * max(1.0, abs(value))
+
+
+def upper_bound(value: float) -> str:
+    """Return ``< 1e-13`` for what is rounding: a power of ten at least three times the value."""
+    if value == 0:
+        return "0"
+    return f"< 1e{ceil(log10(3 * value))}"
 
 
 def rounds(printed: Printed, computed: float, error: float, remark: str) -> Finding:

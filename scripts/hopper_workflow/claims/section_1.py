@@ -1,9 +1,11 @@
 """Abstract and section 1: what kind of solutions and equations these are."""
 
+from math import sqrt
+
 import numpy as np
 import xarray as xr
 
-from hopper_workflow.claims.finding import Finding, above, below, counted
+from hopper_workflow.claims.finding import Finding, above, below, counted, upper_bound
 from hopper_workflow.claims.results import number, parameters, values
 
 
@@ -23,8 +25,8 @@ def solutions_exist(
     return counted(
         int(np.sum(errors < largest_error)),
         errors.size,
-        f"Largest error estimate {errors.max():.1e}. In the hopper of the figures they exist up to "
-        f"mu = {limit:.4f} (Mohr-Coulomb) and {limit_von_mises:.4f} (von Mises) only.",
+        f"Largest error estimate {upper_bound(errors.max())}. In the hopper of the figures they "
+        f"exist up to mu = {limit:.4f} (Mohr-Coulomb) and {limit_von_mises:.4f} (von Mises) only.",
     )
 
 
@@ -36,7 +38,7 @@ def stress_falls_and_particles_accelerate(moderate: xr.Dataset, rough: xr.Datase
     error = max(float(values(data, "error_velocity").max()) for data in (moderate, rough))
     lowest = min(least.values())
     return above(
-        lowest, 0.0, error * lowest, f"Least sigma {least['sigma']:.4f}, least u {least['u']:.2e}."
+        lowest, 0.0, error * lowest, f"Least sigma {least['sigma']:.4f}, least u {least['u']:.3g}."
     )
 
 
@@ -50,7 +52,7 @@ def stress_decouples_for_mohr_coulomb_only(models: xr.Dataset, *, rounding: floa
     coulomb = values(models, "coupling", model="mohr-coulomb").max()
     von_mises = values(models, "coupling", model="von-mises").min()
     error = float(values(models, "error_radial").max()) * von_mises
-    remark = f"Mohr-Coulomb {coulomb:.1e}, von Mises {von_mises:.3g}."
+    remark = f"Mohr-Coulomb {upper_bound(coulomb)}, von Mises {von_mises:.3g}."
     if coulomb > rounding:
         return below(coulomb, rounding, error, remark)
     return above(von_mises, rounding, error, remark)
@@ -150,8 +152,11 @@ def _smooth_neutral(borders: xr.Dataset) -> float:
 
 def jenike_tabulated_them(chart: xr.Dataset, *, reading_error: float) -> Finding:
     deviation = number(chart, "rms_deviation")
-    error = float(values(chart, "error_estimate").max())
+    computed = float(values(chart, "error_estimate").max())
     count = int(np.sum(values(chart, "point_phi") >= parameters(chart)["least_friction_deg"]))
-    return below(
-        deviation, reading_error, error, f"Flow factors at {count} points of a published chart."
+    remark = (
+        f"Flow factors at {count} points of a published chart. The error is that of reading them; "
+        f"that of the computation is {upper_bound(computed)}."
     )
+    # The mean square of so many independent errors is uncertain by sqrt(2 / count) of itself.
+    return below(deviation, reading_error, reading_error / sqrt(2 * count), remark)

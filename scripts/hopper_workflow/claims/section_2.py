@@ -3,7 +3,7 @@
 import numpy as np
 import xarray as xr
 
-from hopper_workflow.claims.finding import Finding, above, below, rounding
+from hopper_workflow.claims.finding import Finding, above, below, rounding, upper_bound
 from hopper_workflow.claims.results import values
 
 _RESIDUALS = "Largest residual of the fields with mu = {}."
@@ -35,7 +35,7 @@ def levy_factor_is_positive(models: xr.Dataset, *, small: float) -> Finding:
     factors = values(models, "levy_least", model="von-mises")
     defect = float(values(models, "levy_defect", model="von-mises").max())
     least = float(factors.min())
-    remark = f"Part of V that is not proportional to T - pI: {defect:.1e}."
+    remark = f"Part of V that is not proportional to T - pI: {upper_bound(defect)}."
     if defect > small:
         return below(defect, small, 0.0, remark)
     return above(least, 0.0, defect * least, remark)

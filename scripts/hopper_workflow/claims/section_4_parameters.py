@@ -3,7 +3,16 @@
 import numpy as np
 import xarray as xr
 
-from hopper_workflow.claims.finding import FAILS, HOLDS, LIMITED, Finding, below, counted, limited
+from hopper_workflow.claims.finding import (
+    FAILS,
+    HOLDS,
+    LIMITED,
+    Finding,
+    below,
+    counted,
+    limited,
+    upper_bound,
+)
 from hopper_workflow.claims.results import flagged, meaning, number, values
 
 
@@ -224,7 +233,8 @@ def folds_are_neutral(linear: xr.Dataset, *, zero: float) -> Finding:
     passed = np.abs(values(linear, "fold_before") - values(linear, "fold_behind")) == 1
     good = (modulus <= zero + error) & passed
     remark = (
-        f"Largest |lambda| {modulus.max():.1e}; the number of growing real modes differs by one on "
-        "the two sides. Such hoppers bound the domain without being on the curve that crosses it."
+        f"Largest |lambda| {upper_bound(modulus.max())}; the number of growing real modes differs "
+        "by one on the two sides. Such hoppers bound the domain without being on the curve that "
+        "crosses it."
     )
     return counted(int(good.sum()), good.size, remark)

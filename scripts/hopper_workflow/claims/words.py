@@ -1,5 +1,6 @@
 """What the paper claims: resources/claims.yaml, checked."""
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -73,6 +74,12 @@ def read_not_judged(path: str | Path, schema: str | Path) -> list[dict[str, str]
 def paths_of(claims: Sequence[Claim]) -> list[str]:
     """Return the artifacts that any of the claims needs, sorted."""
     return sorted({path for claim in claims for path in claim.paths})
+
+
+def half_angles_in(paths: Sequence[str]) -> list[str]:
+    """Return the half angles, in degrees, of the maps and borders among the paths, sorted."""
+    found = (re.fullmatch(r"results/(map|borders|paper_border)/\w+_([\d.]+)\.nc", p) for p in paths)
+    return sorted({match[2] for match in found if match})
 
 
 def _read(path: str | Path, schema: str | Path) -> dict[str, Any]:

@@ -1,10 +1,19 @@
 """The report: one HTML file with all figures and tables, readable without a network."""
 
+import base64
+import io
+import json
+from html import escape
 from pathlib import Path
+
+from PIL import Image
 
 from hopper_workflow.artifacts import replacing
 from hopper_workflow.publish import run
 
+# In workflow.rst, where the first page shows all figures; at most so many pixels each.
+_PLACE = '<div class="gallery"></div>'
+_SMALL = (560, 420)
 STYLESHEET = Path(__file__).parents[3] / "workflow/report/report.css"
 
 
@@ -16,10 +25,32 @@ def write_report(path: Path, configuration: Path | None) -> None:
     RunError
         If there is no finished run; an older report stays as it is.
     """
-    run.products(configuration)
+    made = run.products(configuration)
     with replacing(path) as temporary:
         options = ["--report", str(temporary), "--report-stylesheet", str(STYLESHEET)]
         run.snakemake(configuration, *options)
+        page = temporary.read_text(encoding="utf-8")
+        place = json.dumps(_PLACE)[1:-1]
+        if page.count(place) != 1:
+            raise run.RunError(f"the report has no place {_PLACE} for the figures")
+        figures = [file for file in made if file.suffix == ".png"]
+        pictures = "".join(_picture(file) for file in figures)
+        temporary.write_text(page.replace(place, json.dumps(pictures)[1:-1]), encoding="utf-8")
+
+
+def _picture(file: Path) -> str:
+    """Return a small picture of a figure with its name, as HTML."""
+    with Image.open(file) as whole:
+        small = whole.convert("RGB")
+    small.thumbnail(_SMALL)
+    content = io.BytesIO()
+    small.quantize(64).save(content, "PNG", optimize=True)
+    source = base64.b64encode(content.getvalue()).decode()
+    name = escape(file.stem.removeprefix("fig_").replace("_", " "))
+    return (
+        f'<figure class="small"><img alt="{name}" src="data:image/png;base64,{source}">'
+        f"<figcaption>{name}</figcaption></figure>"
+    )
 
 
 if __name__ == "__main__":

@@ -23,6 +23,7 @@ from hopper.arrays import Array, Complex
 from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 from hopper.spectral.lanczos import Progress, unit_sigma_min
+from hopper.spectral.sampling import closing_in
 from hopper.spectral.scaling import represented, times_power
 from hopper.spectral.schur import SchurForm
 from hopper.values import finite_number
@@ -85,6 +86,24 @@ class Pseudospectrum:
     sigma_min: Array
 
     __repr__ = brief("real", "imag", "sigma_min")
+
+
+@checked
+def plane_of(eigenvalues: Complex, real: RealLike, imag: RealLike) -> tuple[Array, Array]:
+    """Return the axes of a grid, with points added that close in on the eigenvalues within.
+
+    There the level curves of sigma_min are small, and missed by an even grid.
+
+    Raises
+    ------
+    InvalidParameterError
+        As :func:`pseudospectrum`.
+    """
+    x, y = _axis("real", real), _axis("imag", imag)
+    inside = (x[0] < eigenvalues.real) & (eigenvalues.real < x[-1])
+    inside &= (y[0] < eigenvalues.imag) & (eigenvalues.imag < y[-1])
+    near = eigenvalues[inside]
+    return closing_in(x, near.real), closing_in(y, near.imag)
 
 
 @checked

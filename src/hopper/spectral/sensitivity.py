@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -13,6 +14,7 @@ from hopper.errors import InvalidParameterError
 from hopper.spectral.matching import match_kept
 from hopper.spectral.pseudospectrum import eigenvalue_condition_numbers, smallest_singular_values
 from hopper.spectral.robust_stability import distance_to_instability
+from hopper.spectral.sampling import refined
 from hopper.spectral.schur import SchurForm, schur_form
 from hopper.spectral.transient import ModalBasis, modal_matrix, require_modes
 
@@ -20,6 +22,8 @@ from hopper.spectral.transient import ModalBasis, modal_matrix, require_modes
 _OFFSETS = np.logspace(-6, 0, 37)
 # Computed singular values are off by a few times eps ||M||.
 _NOISE = 8.0
+# How far lines between samples of a curve may be off, relative.
+_OFF_CHORD = 0.01
 
 
 @dataclass(frozen=True)
@@ -109,6 +113,48 @@ def resolvent_norm(forms: Sequence[SchurForm], frequencies: RealLike) -> Array:
     lowest = np.min([smallest_singular_values(form, points) for form in forms], axis=0)
     with np.errstate(divide="ignore"):
         return np.asarray(1 / lowest)
+
+
+@checked
+def resolvent_curves(
+    operators: Sequence[Sequence[SchurForm]], stop: float, least: int = 2
+) -> tuple[Array, Array]:
+    """Return frequencies y from 0 to stop, and ||(i y - M)^-1|| of several operators at them.
+
+    Among the frequencies are those of the eigenvalues, where the peaks are, and as many between
+    them as it takes for lines between the samples to be within 1 % of the curves.
+
+    Parameters
+    ----------
+    operators : sequence of sequences of SchurForm
+        The parts of each.
+    stop : float
+        Positive.
+    least : int
+        Number of equally spaced frequencies that there are in any case, at least 2.
+
+    Returns
+    -------
+    frequencies, norms : array, shape (n,) and (number of operators, n)
+
+    Raises
+    ------
+    InvalidParameterError
+        If stop is not positive, least is below 2, there is no operator, or one has no parts.
+    """
+    if not (0 < stop < inf and least >= 2 and operators):
+        raise InvalidParameterError(
+            f"stop = {stop}, least = {least}, {len(operators)} operators: stop must be finite and "
+            "positive, least at least 2, and there must be an operator"
+        )
+    heights = [np.abs(form.eigenvalues.imag) for parts in operators for form in parts]
+    even = np.linspace(0, stop, least)
+    peaks = np.concatenate([even[:0], *heights])
+    # Eigenvalues of two operators that are equal but for rounding are one frequency.
+    places = np.unique(np.append(even, np.round(peaks[peaks < stop] / stop, 9) * stop))
+    return refined(
+        lambda y: np.stack([resolvent_norm(parts, y) for parts in operators]), places, _OFF_CHORD
+    )
 
 
 @checked

@@ -4,11 +4,11 @@ A is singular where psi = pi/4 - delta/2 (tangency). Beyond it the matrix is tha
 which t is no time: it has the same converged eigenvalues among spurious ones with real parts up to
 1e5, which only the filter removes; :mod:`hopper.stability.collocation` has none of them.
 
-*Paper mode*: the full interval [-theta_w, theta_w], N nodes (N even, so none lies on the axis),
-sigma1 at all of them, psi1 at the N - 2 inner ones: size 2 N - 2.
+*The paper's formulation*: the full interval [-theta_w, theta_w], N nodes (N even, so none lies on
+the axis), sigma1 at all of them, psi1 at the N - 2 inner ones: size 2 N - 2.
 
-*Physical mode*: sigma1 even and psi1 odd, on the half grid of m nodes: size 2 m - 1. The radial
-solution's parity splits the paper's matrix of N = 2 m nodes exactly into this half and the
+*The physical formulation*: sigma1 even and psi1 odd, on the half grid of m nodes: size 2 m - 1. The
+radial solution's parity splits the paper's matrix of N = 2 m nodes exactly into this half and the
 *mirrored* half, sigma1 odd and psi1 even, whose modes are not smooth at the apex of a cone.
 """
 
@@ -28,7 +28,7 @@ Half = Literal["physical", "mirrored"]
 
 @checked
 def paper_matrix(solution: RadialSolution, n: int, psi_scale: Positive = 1.0) -> Array:
-    """Return M of ``n`` nodes in paper mode, shape (2 n - 2, 2 n - 2).
+    """Return M of ``n`` nodes in the paper's formulation, shape (2 n - 2, 2 n - 2).
 
     Unknowns: sigma1 at theta_1 < ... < theta_n, then psi1 / psi_scale at theta_2 ... theta_(n-1).
 
