@@ -215,3 +215,10 @@ def test_a_solution_of_scipy_beyond_the_smaller_limit():
     assert reached.y[1].max() < hopper.material.singular_angle(hopper.delta)
     assert degrees(witness.friction_angle(model, s, radians(55))) > 34
     assert np.abs(start.psi_at(reached.x) - reached.y[1]).max() < 1e-6
+
+
+def test_integration_towards_an_end_that_overflows():
+    """Steps along the limiting solution that are too long, to infinite stress, are refused."""
+    cone = Hopper("cone", 0.5144322640519391, 0.3062345695018068)
+    (solution,) = radial_solutions(cone, 0.7 * friction_limit(cone).friction_angle)
+    assert solution.branch == "physical"

@@ -13,9 +13,10 @@ from hopper.arguments import checked
 from hopper.brief import brief
 from hopper.errors import ConvergenceError
 from hopper.problem import Hopper
-from hopper.radial.collocation import Closure
+from hopper.radial.collocation import Closure, Member, newton
 from hopper.radial.family import neighbour
 from hopper.radial.friction_limit import fold_near, friction_limit
+from hopper.radial.grid import half_grid
 from hopper.radial.members import member_with_tau
 from hopper.radial.solution import solution_of
 from hopper.stability.modes import upper_eigenvalues
@@ -23,6 +24,7 @@ from hopper.stability.modes import upper_eigenvalues
 _SIZE, _COARSE_SIZE = 80, 54
 # Distance in log(tau) from the fold at which growing real modes are counted.
 _BESIDE = 1e-2
+_LAST_STEP = 1e-10
 # Of d psi_w / d log(tau), whose zero is the fold; and what its iteration leaves of log(tau).
 _ROUNDING, _ITERATION = 1e-14, 1e-9
 
@@ -70,8 +72,14 @@ def fold_mode(hopper: Hopper) -> FoldMode | None:
         np.abs(upper_eigenvalues(solution_of(fold), size)).min() for size in (_SIZE, _COARSE_SIZE)
     )
     rate = max(float(np.abs(found).min()) for found in modes) / _BESIDE
-    left = _ROUNDING + abs(fold.slope)
+    left = _ROUNDING + sum(abs(member.slope) for member in (fold, _on_finer_grid(fold)))
     place = _ITERATION + left * 2 * _BESIDE / abs(slopes[1] - slopes[0])
     growing = [int(np.sum((found.imag == 0) & (found.real > 0))) for found in modes]
     error = float(abs(fine - coarse)) + rate * place
     return FoldMode(limit.friction_angle, float(fine), error, growing[0], growing[1])
+
+
+def _on_finer_grid(fold: Member) -> Member:
+    """Return the same member on a finer grid: what rounding leaves of its slope is another."""
+    grid = half_grid(2 * fold.grid.size, fold.hopper.half_angle, fold.grid.map.clustering)
+    return newton(fold.hopper, grid, fold.closure, fold.on(grid), _LAST_STEP) or fold

@@ -16,7 +16,7 @@ from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 from hopper.evidence import motion
 from hopper.radial.solution import RadialSolution
-from hopper.stability.tilted import require_linear
+from hopper.stability.tilted import require_mohr_coulomb
 from hopper.yield_conditions import MOHR_COULOMB, YieldCondition
 
 
@@ -54,7 +54,7 @@ def first_singular_angle(law: YieldCondition, s: Fraction) -> float:
 @checked
 def linearised(solution: RadialSolution, theta: Row) -> tuple[Array, Array, Array]:
     """Return A, B and C of (4.1) at ``theta`` (shape (n,)), each of shape (n, 2, 2)."""
-    require_linear(solution)
+    require_mohr_coulomb(solution.hopper)
     s = solution.hopper.s
     sigma, psi, dsigma, dpsi = solution.fields(theta)
     c2, s2, cot = np.cos(2 * psi), np.sin(2 * psi), 1 / np.tan(theta)

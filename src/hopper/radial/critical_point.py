@@ -161,9 +161,9 @@ def _psi_wall(hopper: Hopper, point: CriticalPoint) -> float:
     left = np.array([point.log_sigma, psi]) + _OFFSET * direction
 
     def slope(theta: float, state: Array) -> Array:
-        if not np.isfinite(state).all():  # of a step too long, which is then refused
-            return np.full(2, np.nan)
         angle, sigma = np.array([theta]), np.exp(state[:1])
+        if not np.isfinite([*sigma, *state]).all():  # of a step too long, which is then refused
+            return np.full(2, np.nan)
         return np.concatenate(slopes(hopper, angle, sigma, state[1:]))
 
     interval = (point.theta + _OFFSET, hopper.half_angle)

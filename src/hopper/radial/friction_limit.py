@@ -90,8 +90,11 @@ def fold_near(hopper: Hopper, start: Member) -> Member | None:
 
     ``start`` may be of a hopper close to this one.
     """
-    near = fold_on(hopper, half_grid(SIZE, hopper.half_angle, start.grid.map.clustering), start)
-    if near is None:
+    for size in (SIZE, start.grid.size):
+        grid = half_grid(size, hopper.half_angle, start.grid.map.clustering)
+        if near := fold_on(hopper, grid, start):
+            break
+    else:
         return None
     resolved = neighbour(near, Closure("tau", near.tau))
     # Where the stress on the axis is small the mesh moves the fold.

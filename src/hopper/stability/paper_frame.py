@@ -19,7 +19,7 @@ from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 from hopper.radial.grid import half_grid
 from hopper.radial.solution import RadialSolution
-from hopper.stability.tilted import require_linear
+from hopper.stability.tilted import require_mohr_coulomb
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ def coefficients(
         If the material is not Mohr-Coulomb (its velocity does not decouple), psi_scale is not
         positive, or an angle lies on the axis or outside the hopper.
     """
-    require_linear(solution)
+    require_mohr_coulomb(solution.hopper)
     theta = np.asarray(theta, dtype=float)
     if np.any(theta == 0):
         raise InvalidParameterError("theta = 0 is the axis, where C is singular: use other angles")
@@ -78,7 +78,7 @@ def coefficients_on_half_grid(
     solution: RadialSolution, m: int, psi_scale: Positive = 1.0
 ) -> Coefficients:
     """Return the coefficients at the ``m`` positive Chebyshev points, as :func:`coefficients`."""
-    require_linear(solution)
+    require_mohr_coulomb(solution.hopper)
     grid = half_grid(m, solution.hopper.half_angle)
     return _coefficients(solution, grid.theta, solution.fields_on([grid]), psi_scale)
 

@@ -59,7 +59,7 @@ class TiltedCoefficients:
 
 
 @checked
-def require_linear(solution: RadialSolution) -> None:
+def require_mohr_coulomb(hopper: Hopper) -> None:
     """Check that the stress equations stand by themselves.
 
     Raises
@@ -67,12 +67,6 @@ def require_linear(solution: RadialSolution) -> None:
     InvalidParameterError
         If the material is not Mohr-Coulomb: its velocity does not decouple.
     """
-    require_mohr_coulomb(solution.hopper)
-
-
-@checked
-def require_mohr_coulomb(hopper: Hopper) -> None:
-    """Check that a hopper holds the material whose stability is formulated, as above."""
     if hopper.material != MOHR_COULOMB:
         raise InvalidParameterError(
             "linear stability is formulated for Mohr-Coulomb materials only: use mohr-coulomb"
@@ -89,7 +83,7 @@ def tilted_coefficients(solution: RadialSolution, theta: RealLike) -> TiltedCoef
         If the material is not Mohr-Coulomb, an angle lies outside the hopper, or on the axis of a
         cone.
     """
-    require_linear(solution)
+    require_mohr_coulomb(solution.hopper)
     angles = np.atleast_1d(np.asarray(theta, dtype=float))
     fields = solution.fields(angles)
     on_axis = angles == 0
@@ -120,10 +114,10 @@ def stacked_on_grids(
     Raises
     ------
     InvalidParameterError
-        As :func:`require_linear` and :func:`hopper.radial.fields.stacked_fields`.
+        As :func:`require_mohr_coulomb` and :func:`hopper.radial.fields.stacked_fields`.
     """
     fields = stacked_fields([solution.member for solution in solutions], grids)
-    require_linear(solutions[0])
+    require_mohr_coulomb(solutions[0].hopper)
     cot = np.concatenate([grid.cot for grid in grids])
     at = vars(_coefficients(solutions[0], cot, fields))
     stops = np.cumsum([grid.size for grid in grids])
@@ -183,7 +177,7 @@ def tilt(solution: RadialSolution, size: int = 64) -> tuple[Array, Array]:
     h is even, rises from the axis to the wall and is bounded: data on t' = const lie on
     r = r0 exp(-h(theta)), and decay in t' is decay down the hopper.
     """
-    require_linear(solution)
+    require_mohr_coulomb(solution.hopper)
     grid = half_grid(size, solution.hopper.half_angle)
     (at,) = on_grids(solution, [grid])
     slope = solution.hopper.half_angle * np.sin(2 * at.psi) / at.w
@@ -202,7 +196,7 @@ def first_tangency(solution: RadialSolution) -> float | None:
     InvalidParameterError
         If the material is not Mohr-Coulomb.
     """
-    require_linear(solution)
+    require_mohr_coulomb(solution.hopper)
     return solution.first_angle_with(tangency_angle(solution.hopper.delta))
 
 
