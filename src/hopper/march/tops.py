@@ -10,7 +10,7 @@ from math import degrees, pi, tan
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from hopper.arguments import AnyFloat, RealRow, checked
+from hopper.arguments import RealRow, checked
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.errors import InvalidParameterError, NonPositiveStressError, TangencyError
@@ -39,15 +39,15 @@ class Top:
 
 
 @checked
-def scaled(factor: AnyFloat) -> Top:
+def scaled(factor: float) -> Top:
     """Return the radial field with ``factor`` times its stress.
 
     Raises
     ------
     NonPositiveStressError
-        If the factor is not a positive number.
+        If the factor is not positive.
     """
-    if not 0 < factor < np.inf:
+    if factor <= 0:
         raise NonPositiveStressError(f"factor = {factor!r} must be a positive number")
     shift = float(np.log(factor))
     return Top(f"radial field x {factor:g}", True, lambda _, x: (0 * x + shift, 0 * x))
