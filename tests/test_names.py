@@ -137,6 +137,7 @@ def dataclasses_of(package):
 @pytest.fixture(scope="module")
 def results():
     """One of each public dataclass, by its name, as it comes out of the numerics."""
+    from hopper.assessment.march import assess_march
     from hopper.assessment.neutral import assess_neutral
     from hopper.domain.borders import borders
     from hopper.domain.growth import Hoppers, root
@@ -153,7 +154,7 @@ def results():
     from hopper.march.fields import stress_of
     from hopper.march.net import make_net
     from hopper.march.optics import short_waves
-    from hopper.march.outcome import Breakdown, march
+    from hopper.march.result import Breakdown
     from hopper.march.tops import riemann_deviation, scaled
     from hopper.radial.branch import branch_up_to
     from hopper.radial.critical_point import CriticalPoint, LimitingSolution
@@ -183,7 +184,8 @@ def results():
     piece = first_piece(cone)
     base = base_of(solution)
     wedge = base_of(hopper.solve_radial(hopper.Hopper("wedge", radians(45), radians(10)), 0.0))
-    marched = march(wedge, scaled(2.0), 0.01)
+    assessed = assess_march(wedge.solution, scaled(2.0), 0.01, 0.005)
+    marched = assessed.result
     state, net = base_state(base, np.array([0.1])), make_net(base, True)
     soft = hopper.Hopper("cone", radians(35), radians(10), hopper.yield_condition("von-mises"))
     von_mises = hopper.solve_radial(soft, 0.1)
@@ -210,7 +212,7 @@ def results():
         piece, piece.end, solution.member.grid.map, form.panels[0],
         *sign_changes(np.cos, [1.0, 2.0], 0.1), base, state, state.at, base_table(base),
         ray_slopes(state.at, np.tan(state.psi), state.light), stress_of(0.5, state.psi, state.psi),
-        marched, marched.top, marched.settled[0], marched.history, marched.history.loop,
+        assessed, assessed.at, marched, marched.top, marched.settled[0], marched.history, marched.history.loop,
         marched.history.loop.mesh, net, short_waves(wedge), Crossing(0.1, 0.1, 1, 1e-6),
         net_verdict(net, lambda x: riemann_deviation(base, scaled(1.0), x), 0.01, 1e-5, False),
         Breakdown(0.1, 1e-6, 0.5, 0.9),
@@ -241,7 +243,7 @@ def test_angles_are_shown_in_degrees(results):
 WITH_DATASET = {
     "RadialSolution", "VelocityField", "LinearStability", "MeshSpectrum", "FilteredSpectrum",
     "Pseudospectrum", "Sweep", "NeutralCurve", "Borders", "Assessment", "RadialAssessment",
-    "StabilityAssessment",
+    "StabilityAssessment", "MarchAssessment",
 }  # fmt: skip
 
 

@@ -2,7 +2,8 @@
 
 import json
 from argparse import Namespace
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict
 from math import degrees, isfinite, radians
 from pathlib import Path
@@ -10,21 +11,24 @@ from typing import Any
 
 from hopper.arrays import Array, Complex
 from hopper.assessment.limits import assess_limits, tangency_coefficient
+from hopper.assessment.march import assess_march
 from hopper.assessment.neutral import Interval, NeutralPoint, assess_neutral
 from hopper.assessment.radial import assess_radial
-from hopper.assessment.stability import StabilityAssessment, assess_stability
+from hopper.assessment.stability import assess_stability
 from hopper.errors import ConvergenceError, WallFrictionError
+from hopper.march import tops
+from hopper.march.tops import Top
 from hopper.problem import as_geometry
-from hopper.quantity import Quantity
 from hopper.radial.solution import solve_radial
 from hopper.stability.collocation import Parity
-from hopper_cli import sentences, text
+from hopper_cli import progress, sentences, text
 from hopper_cli.errors import UsageError
 from hopper_cli.outputs import write_csv
 from hopper_data import assessments, tables
 from hopper_data.assessments import Part
 from hopper_data.inputs import Case, Wall
 from hopper_data.tables import Row
+from hopper_data.tops import read_top
 
 
 def answer(options: Namespace) -> str:
@@ -37,17 +41,14 @@ def answer(options: Namespace) -> str:
     HopperError
         If there is no answer; the message says up to which friction there is one.
     """
-    commands = {"radial": _radial, "stability": _stability, "neutral": _neutral}
+    commands = {"radial": _radial, "stability": _stability, "neutral": _neutral, "march": _march}
     return commands[options.command](options)
 
 
 def _radial(options: Namespace) -> str:
     case = _case(options)
-    try:
+    with _explained(case):
         found = assess_radial(case.hopper, case.wall.friction_angle)
-    except ConvergenceError as error:
-        limit = assess_limits(case.hopper).coefficient
-        raise _explained(error, "a radial solution", limit) from None
     _write(options, case, found)
     rows = tables.rows(found, assessments.RADIAL)
     limits = tables.rows(found.limits, assessments.LIMITS)
@@ -73,7 +74,9 @@ def _radial(options: Namespace) -> str:
 
 def _stability(options: Namespace) -> str:
     case = _case(options)
-    found = _assessed_stability(case, options)
+    with _explained(case):
+        solution = solve_radial(case.hopper, case.wall.friction_angle)
+        found = assess_stability(solution, options.disturbances, options.modes)
     _write(options, case, found)
     rows = tables.rows(found, assessments.STABILITY)
     rows += tables.rows({"tangency": tangency_coefficient(case.hopper)}, assessments.TANGENCY)
@@ -111,20 +114,61 @@ def _stability(options: Namespace) -> str:
     )
 
 
-def _assessed_stability(case: Case, options: Namespace) -> StabilityAssessment:
-    try:
-        solution = solve_radial(case.hopper, case.wall.friction_angle)
-        return assess_stability(solution, options.disturbances, options.modes)
-    except ConvergenceError as error:
-        limit = assess_limits(case.hopper).coefficient
-        raise _explained(error, "a radial solution", limit) from None
-
-
 _JSON: dict[Parity, str] = {"symmetric": "eigenvalues", "asymmetric": "asymmetric_eigenvalues"}
 
 
 def _pairs(modes: tuple[Complex, Array] | None) -> list[list[float]] | None:
     return modes and [[mode.real, mode.imag] for mode in modes[0].tolist()]
+
+
+def _march(options: Namespace) -> str:
+    case = _case(options)
+    top = _TOPS[options.top](options) if options.top in _TOPS else read_top(Path(options.top))
+    with _explained(case):
+        solution = solve_radial(case.hopper, case.wall.friction_angle)
+    with progress.on_terminal() as report:
+        found = assess_march(solution, top, options.depth, options.at_tau, report)
+    asked = {key: getattr(options, key) for key in ("top", "eps", "factor", "depth", "at_tau")}
+    _write(options, case, found, asked)
+    rows = tables.rows(found, assessments.MARCH)
+    if options.at_tau is not None:
+        rows += tables.rows(found, assessments.STRESS_AT)
+    if options.json:
+        return _json(
+            case.echoed() | asked,
+            rows,
+            breakdown_kind=found.kind,
+            breakdown_error=found.breakdown and found.breakdown.error,
+            breakdown_x=found.breakdown_x,
+            tilted=found.result.base.tilted,
+            end_tau=found.end,
+            residual=found.residual,
+            error_estimate=found.error_estimate,
+            notes=[*options.doubts, *found.notes],
+        )
+    cells = text.number_cells(rows)
+    if found.breakdown_x is not None:
+        cells.insert(1, ("where that is: theta", f"{found.breakdown_x:.3f} theta_w"))
+    cells += [
+        ("marched down to tau", f"{found.end:.6g}"),
+        ("error of log(sigma) and psi", f"{found.error_estimate:.0e}"),
+        ("residual of the momentum balance", f"{found.residual:.0e} rho g"),
+    ]
+    return _text(
+        f"Stress march: {case}, top {top.name}",
+        cells,
+        [*found.notes, sentences.march_sentence(found, options.depth)],
+    )
+
+
+_TOPS: dict[str, Callable[[Namespace], Top]] = {
+    "bump-s": lambda options: tops.bump_of_sigma(options.eps),
+    "bump-a": lambda options: tops.bump_of_psi(options.eps),
+    "one-sided": lambda options: tops.one_sided_bump(options.eps),
+    "scaled": lambda options: tops.scaled(options.factor),
+    "linear": lambda _: tops.linear_psi(),
+    "bin": lambda _: tops.bin_like(),
+}
 
 
 def _neutral(options: Namespace) -> str:
@@ -188,11 +232,19 @@ def _case(options: Namespace) -> Case:
     return case
 
 
-def _explained(error: ConvergenceError, what: str, mu: Quantity | None) -> ConvergenceError:
-    """Return the error with the largest friction that has ``what``, where that is known."""
-    if mu is None:
-        return error
-    return type(error)(f"{error}; the largest friction with {what} is {Wall.of(mu.value)}")
+@contextmanager
+def _explained(case: Case) -> Iterator[None]:
+    """Add to an error the largest friction that has a radial solution, where that is known."""
+    try:
+        yield
+    except ConvergenceError as error:
+        mu = assess_limits(case.hopper).coefficient
+        if mu is None:
+            raise
+        largest = Wall.of(mu.value)
+        raise type(error)(
+            f"{error}; the largest friction with a radial solution is {largest}"
+        ) from None
 
 
 def _text(title: str, cells: Sequence[tuple[str, str]], sentences: Sequence[str]) -> str:
@@ -217,10 +269,10 @@ def _finite(value: Any) -> Any:
     return None if isinstance(value, float) and not isfinite(value) else value
 
 
-def _write(options: Namespace, case: Case, found: Part) -> None:
-    """Write the profile and the plot where they are asked for."""
+def _write(options: Namespace, case: Case, found: Part, more: dict[str, Any] | None = None) -> None:
+    """Write the profile and the plot where they are asked for; ``more`` is what else was given."""
     if options.profile:
-        _guarded("--profile", options.profile, lambda path: _write_profile(path, case, found))
+        _guarded("--profile", options.profile, lambda path: _write_profile(path, case, found, more))
     if options.plot:
         from hopper_cli import figures
 
@@ -234,11 +286,11 @@ def _guarded(option: str, path: Path, write: Callable[[Path], None]) -> None:
         raise UsageError(f"argument {option}: {path} cannot be written: {error}") from error
 
 
-def _write_profile(path: Path, case: Case, found: Part) -> None:
+def _write_profile(path: Path, case: Case, found: Part, more: dict[str, Any] | None) -> None:
     if path.suffix.lower() == ".nc":
         from hopper_data import results
 
-        results.write_part(path, case, found)
+        results.write_part(path, case, found, more)
         return
     result, table = assessments.arrays(found)
     columns = [part for variable in table for part in tables.parts(variable, variable.of(result))]

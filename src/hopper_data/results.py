@@ -1,10 +1,12 @@
 """Any result of the numerics as a dataset."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
+from hopper.assessment.march import MarchAssessment
 from hopper.assessment.radial import RadialAssessment
 from hopper.assessment.stability import StabilityAssessment
 from hopper.assessment.summary import Assessment
@@ -60,7 +62,7 @@ def to_dataset(result: Any) -> xr.Dataset:
 
 def stored_form(result: Any) -> xr.Dataset:
     """Return the same as CF files hold it: flags as codes, complex numbers in two parts."""
-    if isinstance(result, Assessment | RadialAssessment | StabilityAssessment):
+    if isinstance(result, Assessment | assessments.Part):
         attributes = assessments.comment(result) if isinstance(result, Assessment) else None
         return dataset(*assessments.described(result), attributes=attributes)
     if isinstance(result, RadialSolution | VelocityField):
@@ -75,19 +77,28 @@ def stored_form(result: Any) -> xr.Dataset:
     return dataset(result, table, coordinates)
 
 
-def write_part(path: Path, case: Case, found: assessments.Part) -> None:
-    """Write one part of an assessment as netCDF.
+def write_part(
+    path: Path, case: Case, found: assessments.Part, more: Mapping[str, Any] | None = None
+) -> None:
+    """Write one part of an assessment as netCDF; ``more`` are parameters beside those of the case.
 
     Raises
     ------
     OSError
         If the file cannot be written; no part of it stays.
     """
-    is_radial = isinstance(found, RadialAssessment)
+    title, equations = _TITLES[type(found)]
     cf.write(
         stored_form(found),
         path,
-        title=f"{'Radial solution' if is_radial else 'Linear stability'}: {case}",
-        equations="(2.8)-(2.15), (3.1)-(3.5)" if is_radial else "(4.1), (4.2)",
-        parameters=case.echoed(),
+        title=f"{title}: {case}",
+        equations=equations,
+        parameters=case.echoed() | dict(more or {}),
     )
+
+
+_TITLES = {
+    RadialAssessment: ("Radial solution", "(2.8)-(2.15), (3.1)-(3.5)"),
+    StabilityAssessment: ("Linear stability", "(4.1), (4.2)"),
+    MarchAssessment: ("Stress march", "(2.8)-(2.11), (3.1)"),
+}

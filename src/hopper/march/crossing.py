@@ -13,7 +13,8 @@ import numpy as np
 
 from hopper.arrays import Array
 from hopper.brief import brief
-from hopper.march.net import SLOPES, TAU, THETA, Net, rows
+from hopper.march.loop import Report
+from hopper.march.net import MINUS, PLUS, SLOPES, TAU, THETA, Net, rows
 
 # Rows through whose gaps the crossing of a pair is interpolated, and neighbours of the first pair
 # to cross through whose crossings the first time is: both errors are below that of the net.
@@ -22,6 +23,8 @@ _NEWTON_STEPS = 8
 # Rows behind the first crossing in which its neighbours must have crossed, or never will.
 _PATIENCE = 12
 _SIZES = (64, 128, 256, 512)
+# Pairs of rows between two reports.
+_BETWEEN = 200
 # Quotients of successive changes that count as those of a method of first or second order.
 _QUOTIENTS = {1: (1.6, 2.5), 2: (2.8, 5.6)}
 # Error relative to tau with which a crossing that involves a kink counts as placed.
@@ -91,7 +94,13 @@ class _Watch:
 
 
 def net_verdict(
-    net: Net, top: Callable[[Array], Array], tau_end: float, tolerance: float, kinked: bool
+    net: Net,
+    top: Callable[[Array], Array],
+    tau_end: float,
+    tolerance: float,
+    kinked: bool,
+    calm: float = 0.0,
+    tell: Report | None = None,
 ) -> NetVerdict:
     """Return the first crossing up to ``tau_end``, by nets of ever smaller spacing.
 
@@ -112,11 +121,15 @@ def net_verdict(
         Wanted error of tau.
     kinked : bool
         Whether the top has a kink at the wall; times that do not converge are then no crossing.
+    calm : float
+        Slope K = a w_y below which no crossing is to be expected: nets end a loop later.
+    tell : function, optional
+        Told which net is at work, and its tau.
     """
     seen: list[Array] = []
     missed = 0
     for size in _SIZES:
-        here = first_on_net(net, size, top, tau_end)
+        here = first_on_net(net, size, top, tau_end, calm, tell)
         if here is not None:
             seen.append(here)
         missed = 0 if here is not None else missed + 1
@@ -133,12 +146,20 @@ def net_verdict(
     return NetVerdict(None, False, float(min(each[0] for each in seen)))
 
 
-def first_on_net(net: Net, n: int, top: Callable[[Array], Array], tau_end: float) -> Array | None:
+def first_on_net(
+    net: Net,
+    n: int,
+    top: Callable[[Array], Array],
+    tau_end: float,
+    calm: float = 0.0,
+    tell: Report | None = None,
+) -> Array | None:
     """Return (tau, theta, family) of the first crossing on the net of ``n`` cells, or None.
 
-    ``top`` as in :func:`net_verdict`.
+    ``top``, ``calm`` and ``tell`` as in :func:`net_verdict`.
     """
     watch, steps, turns = _Watch(), list[tuple[Array, Array, int]](), 0
+    calm_turns = 0
     previous: Array | None = None
     with np.errstate(all="ignore"):
         for row in rows(net, n, top):
@@ -148,6 +169,8 @@ def first_on_net(net: Net, n: int, top: Callable[[Array], Array], tau_end: float
                 break
             if previous is not None:
                 turns += row.shape[1] > n
+                if tell and turns % _BETWEEN == 0:
+                    tell(f"net of {n} cells", earliest)
                 steps = [*steps[1 - _ROWS :], (previous, row, turns)]
                 if watch.last:
                     watch.see(_gaps(net, *steps[-1]))
@@ -156,8 +179,24 @@ def first_on_net(net: Net, n: int, top: Callable[[Array], Array], tau_end: float
                         watch.see(_gaps(net, *each))
                 if watch.found and _decided(watch, 2 * n, earliest):
                     break
+                if row.shape[1] > n:
+                    calm_turns = calm_turns + 1 if _steepest(row) < calm else 0
+                    if calm_turns > 2 * n and not watch.found:
+                        break
             previous = row
     return _first(watch.found, 2 * n, tau_end)
+
+
+def _steepest(row: Array) -> float:
+    """Return the largest K = a w_y between neighbouring lines of a family on a row."""
+    step, middle = np.diff(row, axis=1), (row[:, 1:] + row[:, :-1]) / 2
+    largest = -np.inf
+    for sign, w, slope in ((1, PLUS, 4), (-1, MINUS, 5)):
+        along = sign * step[THETA]
+        # From line to line at the same y: the way along them is taken back.
+        later = middle[slope] * along - step[TAU]
+        largest = max(largest, float(((step[w] - middle[slope + 2] * along) / later).max()))
+    return largest
 
 
 def _out_of_order(row: Array, following: Array) -> bool:

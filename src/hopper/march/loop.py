@@ -4,6 +4,7 @@ Advanced is the deviation w = W - W0 from the radial field. It is continuous aro
 where walls join its legs; there its slope jumps, so every leg has its own polynomial.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -23,7 +24,12 @@ _TANGENT = 1e-3
 # Size of a deviation that counts as infinitesimal.
 _SMALL = 1e-6
 
+# Steps between two reports.
+_BETWEEN = 200
+
 End = Literal["end", "tangency", "unresolved"]
+# Told what is being marched, and its tau.
+Report = Callable[[str, float], object]
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,7 +135,7 @@ def step(loop: Loop, w: Array, first: Array, length: float) -> Array:
     return w + (length / 6) * (first + 2 * (second + third) + fourth)
 
 
-def march_loop(loop: Loop, w: Array, tau_end: float) -> History:
+def march_loop(loop: Loop, w: Array, tau_end: float, tell: Report | None = None) -> History:
     """March deviations ``w``, shape (legs, n), from tau = 0 to ``tau_end``, or as far as it goes.
 
     The ends of legs are joined first: the outflow's value counts.
@@ -160,6 +166,8 @@ def march_loop(loop: Loop, w: Array, tau_end: float) -> History:
             rates.append(change)
             if tau >= tau_end:
                 break
+            if tell and len(times) % _BETWEEN == 0:
+                tell(f"loop of {loop.y.size} points", tau)
             previous = tau, margin
             length = min(reach / float((a / d).max()), tau_end - tau)
             w = step(loop, w, change, length)

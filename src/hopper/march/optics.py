@@ -20,9 +20,12 @@ from hopper.errors import InvalidParameterError
 from hopper.march.base import Base, base_state
 from hopper.march.equations import psi_factor
 from hopper.march.tops import Top, riemann_deviation
+from hopper.stability.asymptotic_line import asymptotic_line
 
 # Cells of a leg, for integrals by the trapezoidal rule to 1e-6.
 _CELLS = 4000
+# Part of the slope that short waves need to break, below which they count as calm.
+_CALM = 0.5
 # Growth over a leg that counts as none.
 _NEUTRAL = 1e-12
 
@@ -77,6 +80,21 @@ def short_waves(base: Base) -> ShortWaves:
         loop_time=loop_time,
         steepening=float(np.trapezoid(rates.steepening * rates.time, y)) / loop_time,
     )
+
+
+@checked
+def calm_slope(base: Base) -> float:
+    """Return a K = a w_y below which waves are far from steepening more than they decay.
+
+    Half of -Lambda / b, loop means; 0 where short waves grow. In cones, whose waves break at larger
+    slopes than those of wedges, it is a bound too.
+    """
+    growth = asymptotic_line(base.solution).abscissa
+    # An even number of points: none on the axis.
+    y = np.linspace(-1, 1, _CELLS) * base.hopper.half_angle
+    rates = _rates(base, y)
+    steepening = float(np.sum(rates.steepening * rates.time) / np.sum(rates.time))
+    return max(0.0, -_CALM * growth / steepening)
 
 
 @checked

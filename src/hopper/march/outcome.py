@@ -4,27 +4,24 @@ Two ways to break down are watched: crossings on the nets, tangencies on the loo
 third: its logarithm is marched; gravity drives a light stress up again, or into a tangency.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from math import exp
-from typing import Literal
 
 import numpy as np
 
-from hopper.arguments import RealRow, checked
+from hopper.arguments import checked
 from hopper.arrays import Array
-from hopper.brief import brief
 from hopper.errors import ConvergenceError, InvalidParameterError
-from hopper.march.base import Base, radial_fields, tilt_height
+from hopper.march.base import Base, tilt_height
 from hopper.march.crossing import Crossing, net_verdict
-from hopper.march.fields import deviations, interpolated, momentum_residual, state_at
-from hopper.march.loop import History, corner_defect, make_loop, march_loop
+from hopper.march.fields import deviations, interpolated, momentum_residual
+from hopper.march.loop import History, Report, corner_defect, make_loop, march_loop
 from hopper.march.net import make_net
+from hopper.march.optics import calm_slope
 from hopper.march.rays import first_crossing_of_rays
+from hopper.march.result import ANGLES, Breakdown, Kind, March, Settled
 from hopper.march.settling import linear_growth, settled_radius
 from hopper.march.tops import Top, require_admissible, riemann_deviation
-
-Kind = Literal["crossing", "tangency", "kink"]
 
 # Points of a leg on successive meshes; the last ones are for marches that do not resolve earlier.
 _SIZES = (48, 64, 96, 128, 192)
@@ -36,7 +33,7 @@ _RESOLVABLE = 0.8
 # Part of the way to a tangency to which the march must be trusted for it to be real: unresolved
 # waves close to a crossing make tangencies of their own.
 _NEARLY = 0.98
-_SAMPLES, _ANGLES, _RESIDUALS = 400, 40, 5
+_SAMPLES, _RESIDUALS = 400, 5
 # Error wanted of the breakdown's tau.
 _BREAKDOWN = 1e-5
 # Largest difference of r / r_top between two meshes with which a settled radius is given.
@@ -52,105 +49,6 @@ _KINKED = 1e-3
 _RAY_MESHES, _RAY_SAFETY = ((96, 201), (216, 401)), 3.0
 
 
-@dataclass(frozen=True)
-class Settled:
-    """r / r_top from which on the stress is within ``level`` of the radial field's, for good.
-
-    That is to say: to the end of the trusted march, at least three loop times below. None where it
-    is not reached, not trusted, or small deviations grow; ``error`` is what two meshes differ by.
-    """
-
-    level: float
-    radius: float | None
-    error: float | None
-
-    __repr__ = brief("level", "radius", "error")
-
-
-@dataclass(frozen=True)
-class Breakdown:
-    """Where a march breaks down.
-
-    Attributes
-    ----------
-    tau : float
-        tau, or tilted tau if the base is tilted.
-    error : float
-        Of ``tau``.
-    position : float
-        theta / theta_w; not negative in a symmetric stress.
-    radius : float
-        r / r_top.
-    """
-
-    tau: float
-    error: float
-    position: float
-    radius: float
-
-    __repr__ = brief("tau", "error", "position", "radius")
-
-
-@dataclass(frozen=True, eq=False)
-class March:
-    """What becomes of a stress.
-
-    Attributes
-    ----------
-    base : Base
-    top : Top
-    kind : "crossing", "tangency", "kink" or None
-        How it ends: characteristics cross; one becomes tangent to the lines of constant tau; a kink
-        of the top, focused on the axis of a cone, makes crossings that no mesh places; not at all.
-    breakdown : Breakdown or None
-        Of the crossing or the tangency.
-    tangency_tau : float or None
-        tau of the first tangency, if there is one before a crossing.
-    trusted_tau : float
-        tau up to which two meshes agree to 1 %; fields are given up to there.
-    error_estimate : float
-        What two meshes differ by in log sigma and psi up to ``trusted_tau``.
-    residual : float
-        Largest residual of the momentum balance at a few times, in units of rho g; not in the
-        last fifth before a breakdown, which no mesh resolves.
-    settled : tuple of Settled
-    history : History
-    """
-
-    base: Base
-    top: Top
-    kind: Kind | None
-    breakdown: Breakdown | None
-    tangency_tau: float | None
-    trusted_tau: float
-    error_estimate: float
-    residual: float
-    settled: tuple[Settled, ...]
-    history: History
-
-    __repr__ = brief("top.name", "kind", "trusted_tau", "error_estimate")
-
-    @checked
-    def fields(self, tau: float, theta: RealRow) -> tuple[Array, Array]:
-        """Return sigma (over rho g r) and psi (radians) at a time and angles, shape (n,) each.
-
-        Raises
-        ------
-        InvalidParameterError
-            If tau is not within the trusted part of the march, or an angle not in the hopper.
-        """
-        if not 0 <= tau <= self.trusted_tau:
-            raise InvalidParameterError(
-                f"tau = {tau!r} is not within the march, which can be trusted up to "
-                f"tau = {self.trusted_tau:.6g}: no smooth stress is known there"
-            )
-        theta = np.asarray(theta)
-        sigma, psi = radial_fields(self.base, theta)
-        w = state_at(self.history, tau)
-        even, odd = deviations(self.history.loop, w, theta / self.base.hopper.half_angle)
-        return sigma * np.exp(even), psi + odd
-
-
 @checked
 def march(
     base: Base,
@@ -158,6 +56,7 @@ def march(
     tau_end: float,
     tolerance: float = 1e-4,
     levels: Sequence[float] = (0.05, 0.01),
+    report: Callable[[str, float], object] | None = None,
 ) -> March:
     """March a stress from the top down to tau = -log(r / r_top) = ``tau_end``, or to its breakdown.
 
@@ -174,6 +73,8 @@ def march(
         runs); before a breakdown, on the first four fifths of the way.
     levels : sequence of float
         Distances from the radial field, over its sigma, for the settled radii.
+    report : function, optional
+        Told what is being marched, and its tau, now and then.
 
     Raises
     ------
@@ -190,11 +91,12 @@ def march(
             "r = r_top exp(-tau_end) vanishes"
         )
     require_admissible(base, top)
-    start = _history(base, top, _SIZES[1], 0.0)
+    tell = report or _silent
+    start = _history(base, top, _SIZES[1], 0.0, tell)
     kinked = corner_defect(start.loop, start.w[0]) > _COMPATIBLE
-    kind, stop, breakdown = _on_nets(base, top, tau_end, kinked)
+    kind, stop, breakdown = _on_nets(base, top, tau_end, kinked, tell)
     wanted = max(tolerance, _KINKED) if kinked else tolerance
-    coarse, fine, tau, error = _on_two_meshes(base, top, stop, wanted, stop < tau_end)
+    coarse, fine, tau, error = _on_two_meshes(base, top, stop, wanted, stop < tau_end, tell)
     trusted = float(tau[error <= _TRUSTED][-1])
     tangency = _tangency(coarse, fine, trusted)
     if tangency is not None:
@@ -211,6 +113,8 @@ def march(
         trusted_tau=trusted,
         error_estimate=float(error[tau <= trusted].max()),
         residual=max(momentum_residual(fine, float(each)) for each in times),
+        differences=np.stack([tau, error])[:, tau <= trusted],
+        kinked=kinked,
         settled=tuple(
             _settled(coarse, fine, trusted, level) if for_good else Settled(level, None, None)
             for level in levels
@@ -243,14 +147,18 @@ def crossing_of_rays(base: Base, top: Top, tau_end: float) -> Crossing | None:
     return Crossing(float(fine[0]), float(fine[1]), 1 if fine[2] > 0 else -1, error)
 
 
-def _history(base: Base, top: Top, points: int, tau_end: float) -> History:
+def _silent(_: str, __: float) -> None:
+    """Report nothing."""
+
+
+def _history(base: Base, top: Top, points: int, tau_end: float, tell: Report = _silent) -> History:
     loop = make_loop(base, points, 1 if top.symmetric else 2)
     w = riemann_deviation(base, top, loop.mesh.x)
-    return march_loop(loop, np.stack([w[0], w[1, ::-1]])[: loop.legs], tau_end)
+    return march_loop(loop, np.stack([w[0], w[1, ::-1]])[: loop.legs], tau_end, tell)
 
 
 def _on_nets(
-    base: Base, top: Top, tau_end: float, kinked: bool
+    base: Base, top: Top, tau_end: float, kinked: bool, tell: Report
 ) -> tuple[Kind | None, float, Breakdown | None]:
     """Return how nets see the march end, the time up to which they follow it, and the crossing."""
     verdict = net_verdict(
@@ -259,6 +167,8 @@ def _on_nets(
         tau_end,
         _BREAKDOWN,
         kinked=kinked,
+        calm=calm_slope(base),
+        tell=tell,
     )
     if verdict.first_tau is None:
         return None, tau_end, None
@@ -274,17 +184,17 @@ def _breakdown(base: Base, tau: float, error: float, theta: float) -> Breakdown:
 
 
 def _on_two_meshes(
-    base: Base, top: Top, stop: float, tolerance: float, breaks: bool
+    base: Base, top: Top, stop: float, tolerance: float, breaks: bool, tell: Report
 ) -> tuple[History, History, Array, Array]:
     """Return the march on two meshes, times, and their largest difference up to each of them."""
-    x = np.linspace(0 if top.symmetric else -1, 1, _ANGLES + 1)
-    coarse, fine = (_history(base, top, points, stop) for points in _SIZES[:2])
+    x = np.linspace(0 if top.symmetric else -1, 1, ANGLES + 1)
+    coarse, fine = (_history(base, top, points, stop, tell) for points in _SIZES[:2])
     tau, error = _differences(coarse, fine, x)
     for points in _SIZES[2:]:
         wanted = float(error[int(_RESOLVABLE * _SAMPLES) if breaks else -1])
         if wanted <= tolerance:
             break
-        finer = _history(base, top, points, stop)
+        finer = _history(base, top, points, stop, tell)
         finer_tau, finer_error = _differences(fine, finer, x)
         coarse, fine, tau, error = fine, finer, finer_tau, finer_error
     if not error[0] <= _TRUSTED:

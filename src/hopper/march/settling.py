@@ -42,22 +42,27 @@ def settled_radius(history: History, tau_end: float, level: float) -> float | No
     logarithmic peak there: a level that only the peak touches is passed sooner on coarser meshes.
     """
     loop = history.loop
-    base, hopper = loop.base, loop.base.hopper
     x = np.linspace(0 if loop.legs == 1 else -1, 1, _ANGLES + 1)
     loops = tau_end / loop_time(loop)
     samples = ceil(_PER_LOOP * loops) + 1
     tau = np.linspace(0, tau_end, samples)
-    even, odd = deviations(loop, interpolated(history, tau), x)
+    # Tilted time meets each angle at its own depth.
+    passage = np.array([_last_passage(tau, each, level) for each in distances(history, tau, x).T])
+    if passage.max() > tau_end * (1 - _WAIT / loops):
+        return None
+    height = tilt_height(loop.base, loop.base.hopper.half_angle * x)
+    return float(np.exp(-passage - height).min())
+
+
+def distances(history: History, tau: Array, x: Array) -> Array:
+    """Return the largest |T_ij - T0_ij| / sigma0 of components at tau (m,) and x (n,), (m, n)."""
+    base, hopper = history.loop.base, history.loop.base.hopper
+    even, odd = deviations(history.loop, interpolated(history, tau), x)
     _, psi = radial_fields(base, hopper.half_angle * x)
     radial = stress_of(hopper.s, np.ones_like(psi), psi)
     now = stress_of(hopper.s, np.exp(even), psi + odd)
     parts = ["rr", "rt", "tt"] + ["pp"] * hopper.curvature
-    distance = np.max([np.abs(getattr(now, p) - getattr(radial, p)) for p in parts], axis=0)
-    # Tilted time meets each angle at its own depth.
-    passage = np.array([_last_passage(tau, each, level) for each in distance.T])
-    if passage.max() > tau_end * (1 - _WAIT / loops):
-        return None
-    return float(np.exp(-passage - tilt_height(base, hopper.half_angle * x)).min())
+    return np.max([np.abs(getattr(now, p) - getattr(radial, p)) for p in parts], axis=0)
 
 
 def _last_passage(tau: Array, distance: Array, level: float) -> float:
