@@ -129,14 +129,18 @@ def _parser() -> argparse.ArgumentParser:
     )
     _add_geometry(neutral)
     _add_half_angle_and_wall(neutral)
-    for command in (stability, neutral):
+    _add_disturbances(stability, neutral)
+    return parser
+
+
+def _add_disturbances(*commands: argparse.ArgumentParser) -> None:
+    for command in commands:
         command.add_argument(
             "--disturbances",
             choices=["symmetric", "any"],
             help="default: any for wedges; of cones only symmetric ones are known, which are "
             "axisymmetric and without swirl",
         )
-    return parser
 
 
 def _add_hopper(command: argparse.ArgumentParser) -> None:

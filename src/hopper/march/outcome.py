@@ -102,8 +102,6 @@ def march(
     if tangency is not None:
         kind, breakdown = "tangency", tangency
     for_good = linear_growth(make_loop(base, _SIZES[0], fine.loop.legs)) < 0
-    resolved = trusted if kind is None else _RESOLVABLE * trusted
-    times = np.linspace(0, resolved, _RESIDUALS + 1)[1:]
     return March(
         base=base,
         top=top,
@@ -112,7 +110,7 @@ def march(
         tangency_tau=None if tangency is None else tangency.tau,
         trusted_tau=trusted,
         error_estimate=float(error[tau <= trusted].max()),
-        residual=max(momentum_residual(fine, float(each)) for each in times),
+        residual=_residual(fine, trusted if kind is None else _RESOLVABLE * trusted),
         differences=np.stack([tau, error])[:, tau <= trusted],
         kinked=kinked,
         settled=tuple(
@@ -223,6 +221,11 @@ def _tangency(coarse: History, fine: History, trusted: float) -> Breakdown | Non
         return None
     theta = abs(theta) if fine.loop.legs == 1 else theta
     return _breakdown(fine.loop.base, tau, abs(tau - coarse.tangency[0]), theta)
+
+
+def _residual(history: History, tau_end: float) -> float:
+    times = np.linspace(0, tau_end, _RESIDUALS + 1)[1:]
+    return max(momentum_residual(history, float(each)) for each in times)
 
 
 def _settled(coarse: History, fine: History, tau_end: float, level: float) -> Settled:
