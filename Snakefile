@@ -23,6 +23,7 @@ include: "workflow/rules/flow_factor.smk"
 include: "workflow/rules/spectrum.smk"
 include: "workflow/rules/transient.smk"
 include: "workflow/rules/domain.smk"
+include: "workflow/rules/march.smk"
 include: "workflow/rules/cases.smk"
 include: "workflow/rules/claims.smk"
 

@@ -17,7 +17,8 @@ _FIXED = (
     "fig_4_5_map",
     "fig_domain_angle",
 )
-SECTIONS = ("radial", "spectra", "transient", "pseudospectrum", "friction_curves")
+MARCHES = ("march_breakdown", "march_decay", "march_amplitude", "march_depth")
+SECTIONS = ("radial", "spectra", "transient", "pseudospectrum", "friction_curves", *MARCHES)
 
 
 class Drawing(NamedTuple):

@@ -16,8 +16,6 @@ from hopper.assessment.neutral import Interval, NeutralPoint, assess_neutral
 from hopper.assessment.radial import assess_radial
 from hopper.assessment.stability import assess_stability
 from hopper.errors import ConvergenceError, WallFrictionError
-from hopper.march import tops
-from hopper.march.tops import Top
 from hopper.problem import as_geometry
 from hopper.radial.solution import solve_radial
 from hopper.stability.collocation import Parity
@@ -28,7 +26,7 @@ from hopper_data import assessments, tables
 from hopper_data.assessments import Part
 from hopper_data.inputs import Case, Wall
 from hopper_data.tables import Row
-from hopper_data.tops import read_top
+from hopper_data.tops import top_of
 
 
 def answer(options: Namespace) -> str:
@@ -123,7 +121,7 @@ def _pairs(modes: tuple[Complex, Array] | None) -> list[list[float]] | None:
 
 def _march(options: Namespace) -> str:
     case = _case(options)
-    top = _TOPS[options.top](options) if options.top in _TOPS else read_top(Path(options.top))
+    top = top_of(options.top, options.eps, options.factor)
     with _explained(case):
         solution = solve_radial(case.hopper, case.wall.friction_angle)
     with progress.on_terminal() as report:
@@ -159,16 +157,6 @@ def _march(options: Namespace) -> str:
         cells,
         [*found.notes, sentences.march_sentence(found, options.depth)],
     )
-
-
-_TOPS: dict[str, Callable[[Namespace], Top]] = {
-    "bump-s": lambda options: tops.bump_of_sigma(options.eps),
-    "bump-a": lambda options: tops.bump_of_psi(options.eps),
-    "one-sided": lambda options: tops.one_sided_bump(options.eps),
-    "scaled": lambda options: tops.scaled(options.factor),
-    "linear": lambda _: tops.linear_psi(),
-    "bin": lambda _: tops.bin_like(),
-}
 
 
 def _neutral(options: Namespace) -> str:

@@ -72,6 +72,7 @@ def _march(case: Case, found: MarchAssessment) -> Figure:
     if found.result.breakdown is not None:
         breakdown = found.result.breakdown
         end = breakdown.position * case.half_angle_deg, breakdown.tau
-    drawn = drawing.draw_march(axes, march, end)
+    drawn = drawing.draw_depth_plane(axes[0], march, end)
+    drawing.draw_distance(axes[1], march)
     figure.colorbar(drawn, ax=axes[0], label=r"$\psi$ (degrees)")
     return figure

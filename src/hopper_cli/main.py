@@ -116,6 +116,17 @@ def _parser() -> argparse.ArgumentParser:
     ):
         _add_hopper(command)
         _add_files(command, profile)
+    march_options.add(march)
+    neutral = _command(
+        commands, "neutral", "the internal frictions at which stability changes, and what is stable"
+    )
+    _add_geometry(neutral)
+    _add_half_angle_and_wall(neutral)
+    _add_modes(stability, neutral)
+    return parser
+
+
+def _add_modes(stability: argparse.ArgumentParser, neutral: argparse.ArgumentParser) -> None:
     stability.add_argument(
         "--modes",
         type=values.count,
@@ -123,18 +134,7 @@ def _parser() -> argparse.ArgumentParser:
         metavar="N",
         help="low modes of each parity wanted, default %(default)s",
     )
-    march_options.add(march)
-    neutral = _command(
-        commands, "neutral", "the internal frictions at which stability changes, and what is stable"
-    )
-    _add_geometry(neutral)
-    _add_half_angle_and_wall(neutral)
-    _add_disturbances(stability, neutral)
-    return parser
-
-
-def _add_disturbances(*commands: argparse.ArgumentParser) -> None:
-    for command in commands:
+    for command in (stability, neutral):
         command.add_argument(
             "--disturbances",
             choices=["symmetric", "any"],

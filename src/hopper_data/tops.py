@@ -1,7 +1,7 @@
-"""Stress at the top of a march, read from a file of one's own."""
+"""Stress at the top of a march, by name or read from a file of one's own."""
 
 import csv
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from math import pi
 from pathlib import Path
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from hopper.arrays import Array
 from hopper.errors import HopperError, InvalidParameterError
+from hopper.march import tops
 from hopper.march.tops import Top, profile
 
 SUFFIXES = (".csv", ".nc")
@@ -16,6 +17,30 @@ SUFFIXES = (".csv", ".nc")
 _COLUMNS = {"theta": "degree", "sigma": "rho g r", "psi": "radian"}
 _DEGREES, _RADIANS = ("degree", "degrees", "deg", "°"), ("radian", "radians", "rad")
 _STRESS = ("rho g r", "1", "")
+
+
+_NAMED: dict[str, Callable[..., Top]] = {
+    "bump-s": tops.bump_of_sigma,
+    "bump-a": tops.bump_of_psi,
+    "one-sided": tops.one_sided_bump,
+    "scaled": tops.scaled,
+    "linear": tops.linear_psi,
+    "bin": tops.bin_like,
+}
+
+
+def top_of(name: str, eps: float | None = None, factor: float | None = None) -> Top:
+    """Return a top by its name, with its amplitude or factor, or the one of a file.
+
+    Raises
+    ------
+    HopperError
+        If the number is no number for it, or the file no stress.
+    """
+    if name not in _NAMED:
+        return read_top(Path(name))
+    numbers = [number for number in (eps, factor) if number is not None]
+    return _NAMED[name](*numbers)
 
 
 class TopFileError(InvalidParameterError):

@@ -5,7 +5,7 @@ while the stress itself is bounded. It shows in the gap in theta between neighbo
 along the lines of the other family; a gap in tau would also vanish at a tangency.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -101,6 +101,7 @@ def net_verdict(
     kinked: bool,
     calm: float = 0.0,
     tell: Report | None = None,
+    sizes: Sequence[int] | None = None,
 ) -> NetVerdict:
     """Return the first crossing up to ``tau_end``, by nets of ever smaller spacing.
 
@@ -125,10 +126,12 @@ def net_verdict(
         Slope K = a w_y below which no crossing is to be expected: nets end a loop later.
     tell : function, optional
         Told which net is at work, and its tau.
+    sizes : sequence of int, optional
+        Cells of the nets, each twice those of the one before.
     """
     seen: list[Array] = []
     missed = 0
-    for size in _SIZES:
+    for size in sizes or _SIZES:
         here = first_on_net(net, size, top, tau_end, calm, tell)
         if here is not None:
             seen.append(here)
@@ -143,7 +146,8 @@ def net_verdict(
         # A quotient can be right by chance.
         if crossing.error < _PLACED * crossing.tau or not kinked:
             return NetVerdict(crossing, True, crossing.tau)
-    return NetVerdict(None, False, float(min(each[0] for each in seen)))
+    earliest = min((float(each[0]) for each in seen), default=None)
+    return NetVerdict(None, earliest is None, earliest)
 
 
 def first_on_net(

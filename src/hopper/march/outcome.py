@@ -13,7 +13,7 @@ from hopper.arguments import checked
 from hopper.arrays import Array
 from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.march.base import Base, tilt_height
-from hopper.march.crossing import Crossing, net_verdict
+from hopper.march.crossing import Crossing, NetVerdict, net_verdict
 from hopper.march.fields import deviations, interpolated, momentum_residual
 from hopper.march.loop import History, Report, corner_defect, make_loop, march_loop
 from hopper.march.net import make_net
@@ -101,7 +101,6 @@ def march(
     tangency = _tangency(coarse, fine, trusted)
     if tangency is not None:
         kind, breakdown = "tangency", tangency
-    for_good = linear_growth(make_loop(base, _SIZES[0], fine.loop.legs)) < 0
     return March(
         base=base,
         top=top,
@@ -113,12 +112,39 @@ def march(
         residual=_residual(fine, trusted if kind is None else _RESOLVABLE * trusted),
         differences=np.stack([tau, error])[:, tau <= trusted],
         kinked=kinked,
-        settled=tuple(
-            _settled(coarse, fine, trusted, level) if for_good else Settled(level, None, None)
-            for level in levels
-        ),
+        settled=tuple(_settled(coarse, fine, trusted, level) for level in levels),
         history=fine,
     )
+
+
+@checked
+def first_crossing(
+    base: Base,
+    top: Top,
+    tau_end: float,
+    tolerance: float = _BREAKDOWN,
+    sizes: Sequence[int] | None = None,
+) -> NetVerdict:
+    """Return what nets of characteristics say of the first crossing, without a march on the loop.
+
+    Parameters
+    ----------
+    base, top, tau_end
+        As those of :func:`march`.
+    tolerance : float
+        Wanted error of tau.
+    sizes : sequence of int, optional
+        Cells of the nets, three at least, each twice those of the one before.
+
+    Raises
+    ------
+    InvalidParameterError, TangencyError
+        As :func:`march`.
+    """
+    require_admissible(base, top)
+    start = _history(base, top, _SIZES[1], 0.0)
+    kinked = corner_defect(start.loop, start.w[0]) > _COMPATIBLE
+    return _verdict(base, top, tau_end, kinked, tolerance, _silent, sizes)
 
 
 @checked
@@ -159,21 +185,34 @@ def _on_nets(
     base: Base, top: Top, tau_end: float, kinked: bool, tell: Report
 ) -> tuple[Kind | None, float, Breakdown | None]:
     """Return how nets see the march end, the time up to which they follow it, and the crossing."""
-    verdict = net_verdict(
-        make_net(base, top.symmetric),
-        lambda x: riemann_deviation(base, top, x),
-        tau_end,
-        _BREAKDOWN,
-        kinked=kinked,
-        calm=calm_slope(base),
-        tell=tell,
-    )
+    verdict = _verdict(base, top, tau_end, kinked, _BREAKDOWN, tell)
     if verdict.first_tau is None:
         return None, tau_end, None
     if verdict.crossing is None:
         return "kink", verdict.first_tau, None
     at = verdict.crossing
     return "crossing", at.tau, _breakdown(base, at.tau, at.error, at.theta)
+
+
+def _verdict(
+    base: Base,
+    top: Top,
+    tau_end: float,
+    kinked: bool,
+    tolerance: float,
+    tell: Report,
+    sizes: Sequence[int] | None = None,
+) -> NetVerdict:
+    return net_verdict(
+        make_net(base, top.symmetric),
+        lambda x: riemann_deviation(base, top, x),
+        tau_end,
+        tolerance,
+        kinked=kinked,
+        calm=calm_slope(base),
+        tell=tell,
+        sizes=sizes,
+    )
 
 
 def _breakdown(base: Base, tau: float, error: float, theta: float) -> Breakdown:
@@ -229,6 +268,9 @@ def _residual(history: History, tau_end: float) -> float:
 
 
 def _settled(coarse: History, fine: History, tau_end: float, level: float) -> Settled:
+    """Return the settled radius of two meshes, where small deviations do not grow again."""
+    if linear_growth(make_loop(fine.loop.base, _SIZES[0], fine.loop.legs)) >= 0:
+        return Settled(level, None, None)
     radii = [settled_radius(each, tau_end, level) for each in (coarse, fine)]
     if radii[0] is None or radii[1] is None or abs(radii[1] - radii[0]) > _RADIUS:
         return Settled(level, None, None)
