@@ -34,7 +34,7 @@ def compute_march_depth(
         name = marches.name_of_hopper(**hopper)
         found.append({"name": name, "line": line, "marches": marched})
     names = [marches.name_of_top(**top) for top in tops]
-    return dataset({"hoppers": found, "tops": names, "levels": _LEVELS}, TABLE, AXES)
+    return dataset({"hoppers": found, "tops": names, "levels": list(_LEVELS)}, TABLE, AXES)
 
 
 def _numbers(found: March) -> dict[str, Any]:

@@ -1,5 +1,7 @@
 """How far below the top the stress is radial, over hoppers and tops."""
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -36,11 +38,11 @@ def _draw_top(axis: Axes, data: xr.Dataset) -> None:
     axis.set_title(str(data.top.item()))
 
 
-_LEVELS = (
+_LEVELS: tuple[dict[str, Any], ...] = (
     {"marker": "o", "color": plotting.BLUE},
     {"marker": "o", "color": plotting.BLUE, "mfc": "white"},
 )
-_ENDS = {
+_ENDS: dict[str, dict[str, Any]] = {
     "crossing": {"marker": "x", "color": plotting.ORANGE, "mew": 1.4},
     "tangency": {"marker": "d", "color": plotting.ORANGE},
     "kink": {"marker": "+", "color": plotting.BLACK, "mew": 1.4, "markersize": 6},
