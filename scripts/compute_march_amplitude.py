@@ -30,11 +30,10 @@ def compute_march_amplitude(
 ) -> xr.Dataset:
     """Find the first crossing of each amplitude in each hopper."""
     report = jobs.progress(logging.getLogger(), "hoppers")
-    sizes = [cells, 2 * cells, 4 * cells, 8 * cells]
     found: list[dict[str, Any]] = []
     for hopper in hoppers:
         base = marches.base(hopper)
-        verdicts = [first_crossing(base, top_of(top, e), depth, tolerance, sizes) for e in eps]
+        verdicts = [first_crossing(base, top_of(top, e), depth, tolerance, cells) for e in eps]
         crossings = [verdict.crossing for verdict in verdicts]
         found.append(
             {

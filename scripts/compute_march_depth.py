@@ -19,7 +19,12 @@ _LEVELS = (0.05, 0.01)
 
 
 def compute_march_depth(
-    *, hoppers: Sequence[Mapping[str, Any]], tops: Sequence[Mapping[str, Any]], depth: float
+    *,
+    hoppers: Sequence[Mapping[str, Any]],
+    tops: Sequence[Mapping[str, Any]],
+    depth: float,
+    cells: int,
+    tolerance: float,
 ) -> xr.Dataset:
     """March every top down every hopper."""
     report = jobs.progress(logging.getLogger(), "marches", 8)
@@ -28,7 +33,8 @@ def compute_march_depth(
         base = marches.base(hopper)
         marched = []
         for top in tops:
-            marched.append(_numbers(march(base, top_of(**top), depth, levels=_LEVELS)))
+            found_here = march(base, top_of(**top), depth, tolerance, _LEVELS, cells)
+            marched.append(_numbers(found_here))
             report(len(found) * len(tops) + len(marched), len(hoppers) * len(tops))
         line = asymptotic_line(base.solution).abscissa
         name = marches.name_of_hopper(**hopper)

@@ -200,6 +200,8 @@ rule compute_march_depth:
         hoppers=march("march_depth", "hoppers"),
         tops=march("march_depth", "tops"),
         depth=march("march_depth", "depth"),
+        cells=march("march_depth", "cells"),
+        tolerance=march("march_depth", "tolerance"),
     message:
         "compute_march_depth/{wildcards.figure}: Marches: tops marched down hoppers"
     script:

@@ -148,7 +148,7 @@ def assess_march(
     HopperError
         As :func:`hopper.march.outcome.march`.
     """
-    found = march(base_of(solution), top, depth, _TOLERANCE, LEVELS, report)
+    found = march(base_of(solution), top, depth, _TOLERANCE, LEVELS, report=report)
     end = found.breakdown
     place = None if end is None else Quantity(end.tau, end.error)
     five, one = (

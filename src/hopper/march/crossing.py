@@ -101,7 +101,7 @@ def net_verdict(
     kinked: bool,
     calm: float = 0.0,
     tell: Report | None = None,
-    sizes: Sequence[int] | None = None,
+    sizes: Sequence[int] = _SIZES,
 ) -> NetVerdict:
     """Return the first crossing up to ``tau_end``, by nets of ever smaller spacing.
 
@@ -126,12 +126,12 @@ def net_verdict(
         Slope K = a w_y below which no crossing is to be expected: nets end a loop later.
     tell : function, optional
         Told which net is at work, and its tau.
-    sizes : sequence of int, optional
+    sizes : sequence of int
         Cells of the nets, each twice those of the one before.
     """
     seen: list[Array] = []
     missed = 0
-    for size in sizes or _SIZES:
+    for size in sizes:
         here = first_on_net(net, size, top, tau_end, calm, tell)
         if here is not None:
             seen.append(here)

@@ -34,6 +34,8 @@ _RESOLVABLE = 0.8
 # waves close to a crossing make tangencies of their own.
 _NEARLY = 0.98
 _SAMPLES, _RESIDUALS = 400, 5
+# Cells of the coarsest net of characteristics, and the largest number of nets.
+_CELLS, _NETS = 64, 4
 # Error wanted of the breakdown's tau.
 _BREAKDOWN = 1e-5
 # Largest difference of r / r_top between two meshes with which a settled radius is given.
@@ -56,6 +58,7 @@ def march(
     tau_end: float,
     tolerance: float = 1e-4,
     levels: Sequence[float] = (0.05, 0.01),
+    cells: int = _CELLS,
     report: Callable[[str, float], object] | None = None,
 ) -> March:
     """March a stress from the top down to tau = -log(r / r_top) = ``tau_end``, or to its breakdown.
@@ -73,6 +76,8 @@ def march(
         runs); before a breakdown, on the first four fifths of the way.
     levels : sequence of float
         Distances from the radial field, over its sigma, for the settled radii.
+    cells : int
+        Of the coarsest net of characteristics; with fewer the place of a crossing is less exact.
     report : function, optional
         Told what is being marched, and its tau, now and then.
 
@@ -94,7 +99,7 @@ def march(
     tell = report or _silent
     start = _history(base, top, _SIZES[1], 0.0, tell)
     kinked = corner_defect(start.loop, start.w[0]) > _COMPATIBLE
-    kind, stop, breakdown = _on_nets(base, top, tau_end, kinked, tell)
+    kind, stop, breakdown = _on_nets(base, top, tau_end, kinked, cells, tell)
     wanted = max(tolerance, _KINKED) if kinked else tolerance
     coarse, fine, tau, error = _on_two_meshes(base, top, stop, wanted, stop < tau_end, tell)
     trusted = float(tau[error <= _TRUSTED][-1])
@@ -119,11 +124,7 @@ def march(
 
 @checked
 def first_crossing(
-    base: Base,
-    top: Top,
-    tau_end: float,
-    tolerance: float = _BREAKDOWN,
-    sizes: Sequence[int] | None = None,
+    base: Base, top: Top, tau_end: float, tolerance: float = _BREAKDOWN, cells: int = _CELLS
 ) -> NetVerdict:
     """Return what nets of characteristics say of the first crossing, without a march on the loop.
 
@@ -133,8 +134,8 @@ def first_crossing(
         As those of :func:`march`.
     tolerance : float
         Wanted error of tau.
-    sizes : sequence of int, optional
-        Cells of the nets, three at least, each twice those of the one before.
+    cells : int
+        Of the coarsest net.
 
     Raises
     ------
@@ -144,7 +145,7 @@ def first_crossing(
     require_admissible(base, top)
     start = _history(base, top, _SIZES[1], 0.0)
     kinked = corner_defect(start.loop, start.w[0]) > _COMPATIBLE
-    return _verdict(base, top, tau_end, kinked, tolerance, _silent, sizes)
+    return _verdict(base, top, tau_end, kinked, tolerance, _silent, cells)
 
 
 @checked
@@ -182,10 +183,10 @@ def _history(base: Base, top: Top, points: int, tau_end: float, tell: Report = _
 
 
 def _on_nets(
-    base: Base, top: Top, tau_end: float, kinked: bool, tell: Report
+    base: Base, top: Top, tau_end: float, kinked: bool, cells: int, tell: Report
 ) -> tuple[Kind | None, float, Breakdown | None]:
     """Return how nets see the march end, the time up to which they follow it, and the crossing."""
-    verdict = _verdict(base, top, tau_end, kinked, _BREAKDOWN, tell)
+    verdict = _verdict(base, top, tau_end, kinked, _BREAKDOWN, tell, cells)
     if verdict.first_tau is None:
         return None, tau_end, None
     if verdict.crossing is None:
@@ -195,13 +196,7 @@ def _on_nets(
 
 
 def _verdict(
-    base: Base,
-    top: Top,
-    tau_end: float,
-    kinked: bool,
-    tolerance: float,
-    tell: Report,
-    sizes: Sequence[int] | None = None,
+    base: Base, top: Top, tau_end: float, kinked: bool, tolerance: float, tell: Report, cells: int
 ) -> NetVerdict:
     return net_verdict(
         make_net(base, top.symmetric),
@@ -211,7 +206,7 @@ def _verdict(
         kinked=kinked,
         calm=calm_slope(base),
         tell=tell,
-        sizes=sizes,
+        sizes=[cells << doublings for doublings in range(_NETS)],
     )
 
 
