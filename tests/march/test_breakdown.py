@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from hopper.errors import InvalidParameterError
-from hopper.march import crossing
 from hopper.march.base import base_of
 from hopper.march.crossing import first_on_net, net_verdict
 from hopper.march.net import make_net
@@ -32,9 +31,11 @@ LONG = [case for case in BREAKDOWN if case not in SHORT]
 BEHIND_AXIS, AFTER_FOCUS = BREAKDOWN[9], BREAKDOWN[11]
 
 
-def verdict(under, top, tau_end, kinked=False, tolerance=1e-6):
+def verdict(under, top, tau_end, kinked=False, tolerance=1e-6, **more):
     net = make_net(under, top.symmetric)
-    return net_verdict(net, lambda x: riemann_deviation(under, top, x), tau_end, tolerance, kinked)
+    return net_verdict(
+        net, lambda x: riemann_deviation(under, top, x), tau_end, tolerance, kinked, **more
+    )
 
 
 def check_against_reference(case):
@@ -82,11 +83,10 @@ def test_all_published_crossings(case):
     ],
     ids=name_of_case,
 )
-def test_error_covers_what_other_nets_say(case, monkeypatch):
+def test_error_covers_what_other_nets_say(case):
     under, top, tau_end = base_of_case(case), top_of_case(case), 1.2 * case["tau_b"]
     found = verdict(under, top, tau_end).crossing
-    monkeypatch.setattr(crossing, "_SIZES", (96, 192, 384))
-    other = verdict(under, top, tau_end, tolerance=0.0).crossing
+    other = verdict(under, top, tau_end, tolerance=0.0, sizes=(96, 192, 384)).crossing
     assert found is not None
     assert other is not None
     assert abs(found.tau - other.tau) < found.error + other.error
