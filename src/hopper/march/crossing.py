@@ -199,7 +199,8 @@ def _steepest(row: Array) -> float:
         along = sign * step[THETA]
         # From line to line at the same y: the way along them is taken back.
         later = middle[slope] * along - step[TAU]
-        largest = max(largest, float(((step[w] - middle[slope + 2] * along) / later).max()))
+        rise = step[w] - middle[slope + 2] * along
+        largest = max(largest, float(np.where(sign * later > 0, rise / later, np.inf).max()))
     return largest
 
 
