@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from hopper_workflow import artifacts, jobs, paper_checks, ranges
-from hopper.domain.borders import borders
+from hopper.domain.borders import traced_borders
 from hopper.domain.growth import ROOT_TOLERANCE
 from hopper.domain.neutral_curve import NeutralCurve, neutral_curve
 from hopper.domain.neutral_points import neutral_delta
@@ -37,13 +37,14 @@ def compute_borders(
     trace = partial(neutral_curve, shape, half_angle, radians(neutral_step_deg), radians(axis[-1]))
     neutral = trace()
     logging.info("%s, %g deg: %s", geometry, half_angle_deg, neutral)
+    limits = traced_borders(shape, half_angle, np.radians(axis))
     result = {
         "neutral": neutral,
         "symmetric": trace("symmetric") if shape == "wedge" else None,
         "neutral_error": ROOT_TOLERANCE,
         "check": _check(shape, half_angle, neutral, **check),
-        "borders": borders(shape, half_angle, np.radians(axis)),
-        "delta": axis,
+        "borders": limits,
+        "delta": np.degrees(limits.delta),
     }
     return dataset(result, TABLE, AXES)
 

@@ -8,7 +8,6 @@ from matplotlib.axes import Axes
 
 from hopper_workflow import artifacts, jobs, plotting
 from hopper_cli import drawing, text
-from hopper_data.inputs import Case, Wall
 from hopper_data.tables import Row, number
 
 
@@ -37,11 +36,10 @@ def plot_case(artifact: str, png: str, pdf: str, *, case: dict[str, Any]) -> Non
 
 
 def _title(data: xr.Dataset, case: dict[str, Any]) -> str:
-    given = {key: case[key] for key in ("geometry", "model", "delta_deg", "half_angle_deg")}
-    hopper = Case(**given, wall=Wall.of(case["mu"]))
+    given = {key: case[key] for key in ("geometry", "model", "delta_deg", "half_angle_deg", "mu")}
     verdict = data.outcome.item().replace("_", " ")
     words = [case["name"].replace("_", " "), case.get("description", "")]
-    return f"{drawing.title(hopper, verdict)}\n{': '.join(filter(None, words))}"
+    return f"{drawing.title(verdict, **given)}\n{': '.join(filter(None, words))}"
 
 
 def _write_numbers(axis: Axes, data: xr.Dataset) -> None:

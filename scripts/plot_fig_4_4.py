@@ -72,18 +72,26 @@ def _draw_curve(axis: Axes, data: xr.Dataset, color: object) -> None:
 
 
 def _name_curve(axis: Axes, data: xr.Dataset, color: object, name: str) -> None:
-    """Write the angle beside the start of its curve."""
+    """Write the angle below the middle of its curve: others of the same angle lie above."""
+    abscissa = data.abscissa_symmetric.values
+    (known,) = np.nonzero(np.isfinite(abscissa))
+    middle = int(np.searchsorted(data.mu, _NAMED * float(data.mu[known[-1]])))
+    falling = abscissa[middle + 1] < abscissa[middle]
     axis.annotate(
         name,
-        (0, float(data.abscissa_symmetric[0])),
-        (3, 3),
+        (float(data.mu[middle]), abscissa[middle]),
+        (0, -3),
         textcoords="offset points",
+        ha="right" if falling else "left",
+        va="top",
         fontsize=plotting.SMALL,
         color=color,
-        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.2},
+        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.1},
     )
 
 
+# Part of its length at which a curve is named.
+_NAMED = 0.55
 _KEYS = (
     plotting.key("a mode is the largest"),
     plotting.key(r"the line $\Lambda$ is the largest", linestyle="--"),

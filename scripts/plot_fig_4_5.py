@@ -36,7 +36,7 @@ def draw(
     for axis in axes:
         axis.set_xlabel(r"internal friction $\delta$ (degrees)")
         axis.set_ylabel(r"wall friction $\phi$ (degrees)")
-    last.legend(loc="lower left")
+    last.legend(loc="best")
     figure.suptitle("Cones: curves in the physical formulation, points in the paper's", fontsize=8)
     plotting.below(figure, plotting.all_keys(panels), 3)
     return figure

@@ -36,11 +36,12 @@ def draw(
     most = 2 if len(maps) <= _FEW else 4
     figure, axes = plotting.grid(len(maps), most, height=2.5, sharex=True, sharey=True)
     for axis, path, border, title in zip(axes, maps, borders, panels, strict=True):
-        whole = artifacts.read(path)
+        whole, known = artifacts.read(path), artifacts.read(border)
         data = domains.thinned(whole, _MOST)
-        _mark_undecided(axis, data)
-        mesh = _cells(axis, data, data.abscissa, cmap=_CMAP, norm=norm)
-        known = artifacts.read(border)
+        # Beyond its end each row is continued: what lies there is drawn over it, with its border.
+        continued = data.abscissa.to_pandas().bfill(axis=1).ffill(axis=1)
+        mesh = _cells(axis, data, continued, cmap=_CMAP, norm=norm)
+        _mark_undecided(axis, data, known)
         domains.hatch_unreached(axis, known)
         domains.draw_borders(axis, known)
         axis.set_xlim(float(whole.delta.min()), float(whole.delta.max()))
@@ -69,21 +70,20 @@ def _cells(axis: Axes, data: xr.Dataset, values: ArrayLike, **style: Any) -> Qua
     )
 
 
-def _mark_undecided(axis: Axes, data: xr.Dataset) -> None:
-    """Grey, by reason, wherever there is no verdict."""
-    for name, (color, label) in _GREYS.items():
-        mask = np.where(data.region == name, 1.0, np.nan)
-        if np.isnan(mask).all():
-            continue
-        _cells(axis, data, mask, cmap=ListedColormap([color]))
-        axis.fill([], [], color=color, label=label)
+def _mark_undecided(axis: Axes, data: xr.Dataset, known: xr.Dataset) -> None:
+    """Grey, by reason, wherever there is no verdict; white where the wall is rougher than delta."""
+    delta, limit = known.delta.values, np.nan_to_num(known.limit_phi.values)
+    axis.fill_between(delta, limit, delta, color="0.80", lw=0, label="no radial solution")
+    least = known.positive_stress_phi.to_numpy()
+    least = np.where(np.isnan(least), limit, least)
+    if least.any():
+        axis.fill_between(delta, 0, least, color="0.62", lw=0, label="stress not positive")
+    axis.fill_between(delta, delta, 90, color="white", lw=0)
+    unresolved = np.where(data.region == "not_converged", 1.0, np.nan)
+    if np.isfinite(unresolved).any():
+        _cells(axis, data, unresolved, cmap=ListedColormap(["0.3"]))
+        axis.fill([], [], color="0.3", label="not resolved")
 
-
-_GREYS = {
-    "no_radial_solution": ("0.80", "no radial solution"),
-    "non_positive_stress": ("0.62", "stress not positive"),
-    "not_converged": ("0.3", "not resolved"),
-}
 
 if __name__ == "__main__":
     jobs.run(plotting.saving(draw))

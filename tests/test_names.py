@@ -212,8 +212,8 @@ def results():
         piece, piece.end, solution.member.grid.map, form.panels[0],
         *sign_changes(np.cos, [1.0, 2.0], 0.1), base, state, state.at, base_table(base),
         ray_slopes(state.at, np.tan(state.psi), state.light), stress_of(0.5, state.psi, state.psi),
-        assessed, assessed.at, marched, marched.top, marched.settled[0], marched.history, marched.history.loop,
-        marched.history.loop.mesh, net, short_waves(wedge), Crossing(0.1, 0.1, 1, 1e-6),
+        assessed, assessed.at, marched, marched.top, marched.settled[0], marched.history,
+        marched.history.loop, marched.history.loop.mesh, net, short_waves(wedge), Crossing(0.1, 0.1, 1, 1e-6),
         net_verdict(net, lambda x: riemann_deviation(base, scaled(1.0), x), 0.01, 1e-5, False),
         Breakdown(0.1, 1e-6, 0.5, 0.9),
     ]  # fmt: skip

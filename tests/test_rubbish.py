@@ -31,6 +31,7 @@ from hopper.values import complex_array, number_array
 # numbers: it is followed to where it ends.
 TOOLS = {
     "hopper.arguments", "hopper.brief", "hopper.errors", "hopper.radial.steps", "hopper.values",
+    "hopper.spectral.sampling",
     *(f"hopper.march.{name}" for name in (
         "crossing", "equations", "fields", "loop", "mapped", "net", "rays", "settling")),
 }  # fmt: skip

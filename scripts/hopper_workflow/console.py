@@ -1,7 +1,6 @@
 """What a run says on the screen: how far it is, and of a job that fails where to read more."""
 
 import logging
-import sys
 from typing import Any, TextIO
 
 # A line at least for each of so many equal parts of a run.
@@ -53,13 +52,27 @@ class Brief(logging.Filter):
         self._screen.flush()
 
 
+class Full(logging.Filter):
+    """Has Snakemake tell all of a job, as it does of rules without a message."""
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Take the message off what is told of a job."""
+        if getattr(record, "event", None) == "job_info":
+            record.rule_msg = None
+        return True
+
+
 def be_brief(logger: logging.Logger) -> None:
     """Make the handler of the screen brief, unless the run is a dry one or asked to be verbose.
 
-    A dry run says why jobs would run.
+    A dry run is for those who want to know: inputs, outputs and why jobs would run.
     """
     for handler in logger.handlers:
-        if isinstance(handler, logging.StreamHandler) and handler.stream is sys.stderr:
+        if isinstance(handler, logging.StreamHandler) and not isinstance(
+            handler, logging.FileHandler
+        ):
             settings = [vars(each) for each in handler.filters if hasattr(each, "dryrun")]
-            if settings and not any(each["dryrun"] or each["verbose"] for each in settings):
+            if any(each["dryrun"] or each["verbose"] for each in settings):
+                handler.addFilter(Full())
+            elif settings:
                 handler.addFilter(Brief(handler.stream))

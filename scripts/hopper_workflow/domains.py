@@ -100,7 +100,7 @@ def draw_borders(axis: Axes, data: xr.Dataset) -> None:
             color=plotting.BLACK,
             linewidth=1.2,
             linestyle=(0, (4, 1.5)),
-            label="the same, symmetric disturbances only",
+            label="the same, symmetric only",
         )
     axis.set_xlim(delta.min(), delta.max())
 

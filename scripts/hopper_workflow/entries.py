@@ -4,6 +4,7 @@ An entry NAME of a section makes figures/NAME; where more than one drawing fits,
 which. An entry of ``spectra`` has two drawings.
 """
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
@@ -54,6 +55,15 @@ def kind_of(section: str, name: str, entry: Mapping[str, Any]) -> str:
     if section == "transient":
         return "norms" if _curves(entry) > 1 else "bounds"
     return section
+
+
+def number_of(figure: str) -> str:
+    """Return a figure's number in the paper, with what makes it another one; else its name."""
+    match = re.fullmatch(r"fig_(?:(\d)_(\d))?_?(\w*)", figure)
+    if match is None:
+        return figure.replace("_", " ")
+    number = f"{match[1]}.{match[2]} " if match[1] else ""
+    return f"{number}{match[3].replace('_', ' ')}".strip()
 
 
 def of_kind(config: Mapping[str, Any], kind: str) -> list[str]:

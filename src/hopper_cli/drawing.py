@@ -1,15 +1,13 @@
 """Curves of one hopper on given axes; the look is the caller's."""
 
 from collections.abc import Mapping, Sequence
+from math import atan, degrees
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
-
-if TYPE_CHECKING:  # the page of a case needs no numerics
-    from hopper_data.inputs import Case
 
 Array = NDArray[np.float64]
 STYLE = Path(__file__).with_name("paper.mplstyle")
@@ -17,11 +15,13 @@ _MODELS = {"mohr-coulomb": "Mohr-Coulomb", "von-mises": "von Mises"}
 _SMALL: dict[str, Any] = {"textcoords": "offset points", "fontsize": 7}
 
 
-def title(case: "Case", verdict: str) -> str:
+def title(
+    verdict: str, *, geometry: str, model: str, delta_deg: float, half_angle_deg: float, mu: float
+) -> str:
     """Return hopper, material, wall and verdict in one line, in the signs of print."""
-    angles = rf"$\delta$ = {case.delta_deg:.6g}°, $\vartheta_w$ = {case.half_angle_deg:.6g}°"
-    wall = rf"$\mu$ = {case.wall.mu:.6g} ($\phi$ = {case.wall.phi_deg:.4g}°)"
-    return f"{case.geometry}, {_MODELS[case.model]}, {angles}, {wall}: {verdict}"
+    angles = rf"$\delta$ = {delta_deg:.6g}°, $\vartheta_w$ = {half_angle_deg:.6g}°"
+    wall = rf"$\mu$ = {mu:.6g} ($\phi$ = {degrees(atan(mu)):.4g}°)"
+    return f"{geometry}, {_MODELS[model]}, {angles}, {wall}: {verdict}"
 
 
 def typeset(number: str) -> str:

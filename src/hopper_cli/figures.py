@@ -38,7 +38,15 @@ def write(path: Path, case: Case, found: Part) -> None:
             figure, verdict = Figure(figsize=(7.1, 4.0)), found.verdict.replace("_", " ")
             line = found.result.line.abscissa
             drawing.draw_spectrum(figure.subplots(), found.spectrum.eigenvalues, line)
-        figure.suptitle(drawing.title(case, verdict), fontsize=8)
+        words = drawing.title(
+            verdict,
+            geometry=case.geometry,
+            model=case.model,
+            delta_deg=case.delta_deg,
+            half_angle_deg=case.half_angle_deg,
+            mu=case.wall.mu,
+        )
+        figure.suptitle(words, fontsize=8)
         with replacing(path) as temporary:
             figure.savefig(temporary, metadata=_METADATA[path.suffix.lower()])
 

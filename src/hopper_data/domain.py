@@ -18,7 +18,7 @@ SWEEP: Table = (
     number("abscissa_symmetric", "the same for symmetric disturbances", "phi", "symmetric"),
     number("abscissa_asymmetric", "the same for asymmetric disturbances", "phi", "asymmetric"),
     number("line", "abscissa of the asymptotic line", "phi"),
-    angle("psi_max", "largest psi on the radial solution's nodes", "phi"),
+    angle("psi_max", "largest psi of the radial solution", "phi"),
     flag("governed_by", "what the abscissa is due to", GOVERNED_BY, "phi"),
     flag("parity", "parity of the mode that governs", PARITY, "phi"),
 )
@@ -46,5 +46,11 @@ BORDERS: Table = (
         "wall friction at which psi reaches pi/4, NaN as before",
         "delta",
         "singular_velocity",
+    ),
+    angle(
+        "positive_stress_phi",
+        "least wall friction with positive stress, NaN where no wall has it",
+        "delta",
+        "positive_stress",
     ),
 )

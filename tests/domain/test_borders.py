@@ -10,11 +10,14 @@ from hopper.domain.borders import (
     Borders,
     borders,
     friction_reaching,
+    positive_stress_friction,
     singular_velocity_friction,
     stable_area,
     stable_outline,
     tangency_friction,
+    traced_borders,
 )
+from hopper.errors import NonPositiveStressError
 from tests.stability.witnesses import wall_tangency_friction
 
 
@@ -118,6 +121,30 @@ def test_tangency_of_random_hoppers():
     assert inside > 3
 
 
+@pytest.mark.parametrize(("delta", "half_angle"), [(12, 10), (16, 10), (13, 30), (17, 30)])
+def test_stress_is_positive_above_its_border(delta, half_angle):
+    """By the sign of 1 / sigma_0 on both sides."""
+    wedge = make("wedge", delta, half_angle)
+    least = positive_stress_friction(wedge)
+    assert least is not None
+    assert 0 < least < friction_limit(wedge).friction_angle
+    assert solve_radial(wedge, least + 1e-6).sigma_axis > 1e3
+    with pytest.raises(NonPositiveStressError, match=f"phi > {degrees(least):.6g} deg"):
+        solve_radial(wedge, least - 1e-6)
+
+
+def test_stress_that_no_wall_makes_positive():
+    wedge = make("wedge", 12, 30)
+    assert positive_stress_friction(wedge) is None
+    with pytest.raises(NonPositiveStressError):
+        solve_radial(wedge, 0.99 * friction_limit(wedge).friction_angle)
+
+
+def test_stress_that_is_positive_from_the_smooth_wall_on():
+    assert positive_stress_friction(make("cone", 35, 10)) == 0
+    assert borders("wedge", radians(10), np.radians([15, 40])).positive_stress[1] == 0
+
+
 # Borders over delta.
 
 
@@ -187,12 +214,13 @@ def test_folds_rise_or_fall_with_delta():
 
 @pytest.mark.parametrize(("size", "index"), [(5, [0, 2, 4]), (6, [1, 3, 5]), (2, [1]), (1, [0])])
 def test_thinned_borders(size, index):
-    arrays = [np.arange(size) + i / 10 for i in range(5)]
+    arrays = [np.arange(size) + i / 10 for i in range(6)]
     ends = tuple(f"end {i}" for i in range(size))
-    delta, limit, error, tangency, singular = arrays
-    thinned = Borders(delta, limit, error, ends, tangency, singular).thinned()
+    delta, limit, error, *levels = arrays
+    thinned = Borders(delta, limit, error, ends, *levels).thinned()
     kept = [thinned.delta, thinned.limit, thinned.limit_error, thinned.tangency]
-    for array, found in zip(arrays, [*kept, thinned.singular_velocity], strict=True):
+    kept += [thinned.singular_velocity, thinned.positive_stress]
+    for array, found in zip(arrays, kept, strict=True):
         np.testing.assert_array_equal(found, array[index])
     assert thinned.end == tuple(ends[i] for i in index)
 
@@ -206,7 +234,9 @@ def by_hand(singular):
         np.array([0.0, 0.1]), np.array([0.4, 0.3]), ("line", "line"), (None, None), "fold"
     )
     deltas, limit = np.array([0.2, 0.5, 0.6]), np.array([0.1, 0.2, 0.2])
-    return curve, Borders(deltas, limit, 0 * limit, 3 * ("fold",), limit / 2, np.array(singular))
+    return curve, Borders(
+        deltas, limit, 0 * limit, 3 * ("fold",), limit / 2, np.array(singular), 0 * limit
+    )
 
 
 def test_outline_and_area_of_a_polygon():
@@ -228,3 +258,17 @@ def test_area_that_radial_flow_reaches():
     # Corners at delta = 0.5 and 0.6 lie at the level: chord from (0.3, 0.1) to (0.5, 0.15).
     expected = 0.5 * 0.2 * (0.1 + 0.15) + 0.1 * 0.15 - 0.5 * 0.1 * 0.1
     assert reached == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize("geometry", ["cone"])
+def test_traced_borders_have_no_corner_between_their_points(geometry):
+    """A limit over an even grid is off by degrees where a fold takes over, traced by 0.05."""
+    even = np.radians(np.linspace(23, 29, 7))
+    traced = traced_borders(geometry, radians(30), even)
+    assert set(even) <= set(traced.delta)
+    assert np.all(np.diff(traced.delta) > 0)
+    assert len(traced.end) == traced.delta.size
+    between = np.radians([24.6, 24.9, 25.3, 26.6])
+    exact = borders(geometry, radians(30), between).limit
+    drawn = np.interp(between, traced.delta, traced.limit)
+    assert np.degrees(np.abs(drawn - exact)).max() < 0.05

@@ -19,6 +19,14 @@ def brackets(found, places):
         assert abs(change.place - place) <= change.error * (1 + 1e-9)
 
 
+def test_a_smooth_sign_change_takes_few_evaluations():
+    """The places, two for each of three steps around it, and two or three to narrow it."""
+    seen = []
+    (found,) = sign_changes(lambda x: seen.append(x) or x**3 - 120, PLACES, WIDTH)  # type: ignore[func-returns-value]
+    brackets([found], [120 ** (1 / 3)])
+    assert len(set(seen)) <= PLACES.size + 6 + 3
+
+
 @pytest.mark.parametrize("root", [0.3, 3.14, 5, 9.9])
 def test_a_continuous_sign_change(root):
     for slope in (-1.0, 0.3):

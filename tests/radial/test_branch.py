@@ -5,9 +5,10 @@ from math import radians
 import numpy as np
 import pytest
 
-from hopper import Hopper, friction_limit
+from hopper import Hopper, friction_limit, solve_radial
 from hopper.errors import NoRadialSolutionError
 from hopper.radial.branch import branch_up_to, members_on
+from hopper.radial.collocation import largest_psi
 from hopper.radial.members import physical_member
 
 # Folds close and far, walls as rough as the material, a singular angle inside.
@@ -88,3 +89,25 @@ def test_a_branch_stands_for_every_wall():
     assert members_on(branch_up_to(hopper, 0.3), np.array([1.0])) == [None]
     with pytest.raises(NoRadialSolutionError, match="lower half_angle"):
         branch_up_to(make("cone", 40, 70), 0.3)
+
+
+@pytest.mark.parametrize(
+    ("case", "phi"),
+    [
+        (("cone", 50, 30), 15),
+        (("cone", 35, 30), 18),
+        (("cone", 55, 30), 16.2),
+        (("wedge", 60, 30), 29),
+    ],
+)
+def test_largest_psi_inside_does_not_depend_on_the_nodes(case, phi):
+    solution = solve_radial(make(*case), radians(phi))
+    theta, expected = solution.psi_maximum()
+    assert theta < 0.99 * solution.hopper.half_angle
+    assert abs(largest_psi(solution.member) - expected) < 1e-9
+    assert solution.psi.max() < expected - 1e-8
+
+
+def test_largest_psi_at_the_wall():
+    solution = solve_radial(make("wedge", 45, 30), radians(44))
+    assert largest_psi(solution.member) == solution.psi_wall

@@ -232,9 +232,9 @@ PHYSICAL = ("physical", "L2", 1.0)
     ],
 )
 def test_numbers_of_figure_4_3(geometry, case, kappa, distance, kreiss_bound):
-    mode, norm, psi_scale = case
-    kept = kept_eigenvalues(geometry, mode, 400)
-    found_bases = kept_bases(geometry, mode, 400, norm, psi_scale)
+    formulation, norm, psi_scale = case
+    kept = kept_eigenvalues(geometry, formulation, 400)
+    found_bases = kept_bases(geometry, formulation, 400, norm, psi_scale)
     found = kept_sensitivity(found_bases)
     measured = condition_number(found_bases), found.distance, found.kreiss
     # Half a unit of the last digit.

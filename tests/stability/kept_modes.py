@@ -31,7 +31,7 @@ def _filtered(geometry, n):
     )
 
 
-def kept_eigenvalues(geometry, mode, n):
+def kept_eigenvalues(geometry, formulation, n):
     """Eigenvalues on n nodes by parity, confirmed by n / 2 nodes.
 
     ``paper``: the first unbroken run by the filter as worded; ``physical``: sound filter;
@@ -39,9 +39,9 @@ def kept_eigenvalues(geometry, mode, n):
     """
     found = _filtered(geometry, n)
     values, half = found.fine.eigenvalues, found.fine.half
-    if mode == "physical":
+    if formulation == "physical":
         return {"physical": values[found.kept & (half == 0)]}
-    if mode == "low":
+    if formulation == "low":
         chosen = np.abs(values) < 300
     else:
         chosen = np.zeros(values.size, dtype=bool)
@@ -49,10 +49,10 @@ def kept_eigenvalues(geometry, mode, n):
     return {name: values[chosen & (half == code)] for code, name in enumerate(HALVES)}
 
 
-def kept_bases(geometry, mode, n, norm, psi_scale):
+def kept_bases(geometry, formulation, n, norm, psi_scale):
     """The package's bases of these modes."""
     solution = radial(geometry, 35, 10)
-    kept = kept_eigenvalues(geometry, mode, n)
+    kept = kept_eigenvalues(geometry, formulation, n)
     return [modal_basis(solution, n, half, kept[half], norm, psi_scale) for half in kept]
 
 

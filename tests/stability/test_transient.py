@@ -1,6 +1,6 @@
 """Growth on the kept modes against matrix exponentials and eigenvectors of the whole matrix."""
 
-from itertools import product
+from itertools import pairwise, product
 
 import numpy as np
 import pytest
@@ -14,6 +14,7 @@ from hopper.spectral.transient import (
     ModalBasis,
     abscissa,
     condition_number,
+    growth_curves,
     modal_matrix,
     oscillation,
     propagator_norm,
@@ -37,8 +38,8 @@ CASES = list(product(GEOMETRIES, NORMS, (1.0, 2.0)))
 TIMES = np.array([0.0, 1e-3, 0.02, 0.3, 1.0, 5.0])
 
 
-def all_kept(geometry, mode, n):
-    return np.concatenate(list(kept_eigenvalues(geometry, mode, n).values()))
+def all_kept(geometry, formulation, n):
+    return np.concatenate(list(kept_eigenvalues(geometry, formulation, n).values()))
 
 
 def rounding(kappa, size, times):
@@ -88,14 +89,14 @@ def test_norm_on_the_mesh_of_the_paper(geometry):
     assert np.all(error <= rounding(kappa, matrix_norm(geometry, 400), times))
 
 
-@pytest.mark.parametrize("mode", ["paper", "physical"])
+@pytest.mark.parametrize("formulation", ["paper", "physical"])
 @pytest.mark.parametrize(("geometry", "norm", "psi_scale"), CASES)
-def test_bounds_of_the_norm(geometry, mode, norm, psi_scale):
-    bases = kept_bases(geometry, mode, 200, norm, psi_scale)
+def test_bounds_of_the_norm(geometry, formulation, norm, psi_scale):
+    bases = kept_bases(geometry, formulation, 200, norm, psi_scale)
     times = np.linspace(0, 5, 101)
     found = propagator_norm(bases, times)
     kappa, alpha = condition_number(bases), abscissa(bases)
-    shift = abs(alpha - all_kept(geometry, mode, 200).real.max())
+    shift = abs(alpha - all_kept(geometry, formulation, 200).real.max())
     assert shift <= EPS * kappa * matrix_norm(geometry, 200)
     lower = np.exp(alpha * times)
     slack = rounding(kappa, 1, times)
@@ -330,3 +331,56 @@ def test_oscillation_does_not_depend_on_the_rate_of_growth():
     assert oscillation([slow], 0.5, 2.0, 101)[0] == pytest.approx(
         oscillation([fast], 0.5, 2.0, 101)[0], rel=1e-10
     )
+
+
+# The wedge of Figure 4.2 on a coarser mesh: waves cross it in a time that the spacing of the
+# eigenvalues gives, and the norm has a dip at every crossing.
+@pytest.fixture(scope="module")
+def wedge_bases():
+    return {norm: kept_bases("wedge", "physical", 160, norm, 1.0) for norm in NORMS}
+
+
+@pytest.mark.parametrize("norm", ["discrete", "L2"])
+def test_the_sampled_norm_is_the_norm(wedge_bases, norm):
+    """Extrema in windows of half a period, against a step that resolves every mode by far."""
+    bases = wedge_bases[norm]
+    times, (relative,) = growth_curves([bases], 0.0, 0.6)
+    dense = np.linspace(0, 0.6, 6001)
+    exact = propagator_norm(bases, dense) * np.exp(-abscissa(bases) * dense)
+    drawn = np.interp(dense, times, relative)
+    assert np.quantile(np.abs(drawn / exact - 1), 0.95) < 0.02
+    period = 2 * np.pi / np.median(np.diff(np.sort(bases[0].eigenvalues.imag)))
+    edges = np.arange(0.25 * period, 0.6, period / 2)
+    assert edges.size > 5
+    for low, high in pairwise(edges):
+        found = relative[(low <= times) & (times <= high)]
+        expected = exact[(low <= dense) & (dense <= high)]
+        # Samples are values of the curve: they can miss an extremum, not exceed it.
+        assert found.max() > 0.99 * expected.max()
+        assert found.min() < 1.01 * expected.min()
+
+
+def test_half_the_step_changes_no_extremum(wedge_bases):
+    bases = list(wedge_bases.values())
+    coarse, fine = (growth_curves(bases, 0.05, 0.6, least)[1] for least in (300, 599))
+    assert coarse.max(axis=1) == pytest.approx(fine.max(axis=1), rel=0.01)
+    assert coarse.min(axis=1) == pytest.approx(fine.min(axis=1), rel=0.01)
+
+
+def test_the_error_of_an_oscillation_includes_the_sampling(wedge_bases):
+    few, error = oscillation(wedge_bases["discrete"], 0.2, 0.4, 5)
+    many, _ = oscillation(wedge_bases["discrete"], 0.2, 0.4, 4001)
+    assert few == pytest.approx(many, abs=max(3 * error, 0.01 * many))
+
+
+@pytest.mark.parametrize(
+    ("start", "stop", "least"), [(1.0, 1.0, 2), (-1.0, 1.0, 2), (0.0, np.inf, 2), (0.0, 1.0, 1)]
+)
+def test_sampling_asks_for_a_range(wedge_bases, start, stop, least):
+    with pytest.raises(InvalidParameterError):
+        growth_curves([wedge_bases["L2"]], start, stop, least)
+
+
+def test_growth_curves_ask_for_a_case():
+    with pytest.raises(InvalidParameterError, match="cases is empty"):
+        growth_curves([], 0.0, 1.0)

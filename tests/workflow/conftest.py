@@ -66,6 +66,17 @@ COARSE: dict[str, Any] = {
     "claims.linear.folds.deltas_deg.step": 10,
     "claims.linear.windows.points": 11,
 }
+# A Snakefile that takes the workflow of a clone as a module.
+HOST = """
+configfile: "silos.yaml"
+
+module hopper:
+    snakefile: {clone!r} + "/Snakefile"
+    config: config["hopper"]
+    prefix: "silo"
+
+use rule * from hopper as hopper_*
+"""
 
 
 class Workflow:
@@ -113,7 +124,13 @@ class Workflow:
         """Rules, with their figure if they have one, that a dry run would execute."""
         done = self.snakemake("-n", *targets)
         assert done.returncode == 0, done.stderr
+        # The host of a module prints the messages of rules, which begin like this.
         found = set(re.findall(r"^Job \d+: (\S+):", done.stdout, re.MULTILINE))
+        for block in re.split(r"\n(?=(?:local)?rule )", done.stdout):
+            if match := re.match(r"(?:local)?rule (\w+):", block):
+                wildcards = re.search(r"wildcards: (.*)", block)
+                values = re.findall(r"=([^,\s]+)", wildcards[1]) if wildcards else []
+                found.add("/".join([match[1], *values]))
         return found - {"all"}
 
     def set(self, key: str, value: Any) -> None:

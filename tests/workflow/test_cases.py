@@ -121,7 +121,7 @@ BAD = [
     ({"name": ""}, r"'cases\[1\].name'"),
     ({"name": "a" * 42}, r"'cases\[1\].name'"),
     ({"name": 7}, r"'cases\[1\].name': 7 is not of type 'string'"),
-    ({"name": "steel_cone"}, r"'cases\[1\].name': steel_cone is taken: give another name"),
+    ({"name": "steel_cone"}, r"'cases\[1\].name': the figure case_steel_cone is taken by cases"),
     ({"description": "long" * 31}, r"'cases\[1\].description': .* is too long"),
     ({"description": "two\nlines"}, r"'cases\[1\].description'"),
     ({"description": "{{ config }}"}, r"'cases\[1\].description'"),

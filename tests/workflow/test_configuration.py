@@ -30,6 +30,7 @@ def test_the_shipped_configuration_is_valid(config):
     configuration.check(config, SCHEMA)
 
 
+PLANE = "pseudospectrum.fig_pseudospectrum"
 BAD = [
     ("radial.fig_3_1.delta_deg", 95, "'radial.fig_3_1.delta_deg': 95 is greater than"),
     ("radial.fig_3_1.delta_deg", "30", "'radial.fig_3_1.delta_deg': '30' is not of type 'number'"),
@@ -47,9 +48,9 @@ BAD = [
     ("spectra.fig_4_2.nodes", 8, "'spectra.fig_4_2.nodes': 8 is less than the minimum of 16"),
     ("spectra.fig_4_2.coarse_nodes", 400, "coarse_nodes': 400 is not below nodes = 400"),
     ("spectra.fig_4_2.tolerance", 0, "tolerance': 0 is less than or equal to the minimum"),
-    ("pseudospectrum.fig_pseudospectrum.real.stop", -20, "'pseudospectrum.fig_pseudospectrum.real.stop': -20 must be above start"),
-    ("pseudospectrum.fig_pseudospectrum.real.points", 1, "'pseudospectrum.fig_pseudospectrum.real.points': 1 is less than the minimum"),
-    ("pseudospectrum.fig_pseudospectrum.formulations.paper.psi_scale", 0, "psi_scale': 0 is less than or equal"),
+    (f"{PLANE}.real.stop", -20, f"'{PLANE}.real.stop': -20 must be above start"),
+    (f"{PLANE}.real.points", 1, f"'{PLANE}.real.points': 1 is less than the minimum"),
+    (f"{PLANE}.formulations.paper.psi_scale", 0, "psi_scale': 0 is less than or"),
     ("stability_map.chunks", 0, "'stability_map.chunks': 0 is less than the minimum of 1"),
     ("extra", 1, r"'top level': .*'extra' was unexpected"),
 ]  # fmt: skip

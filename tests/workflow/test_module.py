@@ -8,24 +8,18 @@ import netCDF4
 import pytest
 import yaml
 
-from tests.workflow.conftest import Workflow, copy
+from tests.workflow.conftest import HOST, Workflow, copy
 
 pytestmark = pytest.mark.workflow
 
-FROM_CLONE = """
-configfile: "silos.yaml"
-
-module hopper:
-    snakefile: {clone!r} + "/Snakefile"
-    config: config["hopper"]
-    prefix: "silo"
-
-use rule * from hopper as hopper_*
-
+FROM_CLONE = (
+    HOST
+    + """
 rule mine:
     default_target: True
     input: "silo/figures/fig_3_1.png"
 """
+)
 # A host with packages of the names that ours once had, and a job of its own.
 WITH_ITS_OWN_PACKAGES = """
 import os
@@ -93,7 +87,7 @@ def test_another_workflow_uses_a_clone_with_its_own_numbers_and_prefix(fresh, ot
     (other.path / "silos.yaml").write_text(yaml.safe_dump({"hopper": config, "mine": 1}))
     (other.path / "Snakefile").write_text(FROM_CLONE.format(clone=str(fresh.path)))
     everything = other.reruns("hopper_all")
-    assert {"hopper_plot_fig_4_5_map", "hopper_compute_flow_factor"} <= everything
+    assert {"plot_fig_4_5_map", "compute_flow_factor"} <= everything
     assert "mine" not in everything
     other.build()
     with netCDF4.Dataset(other.path / "silo/results/radial/fig_3_1.nc") as data:

@@ -338,8 +338,6 @@ RELATED = [
     ("fig_1_1.theta_deg", 28, "'fig_1_1.theta_deg': 28 must be below half_angle_deg"),
     ("fig_3_2.stagnant_from_deg", 31, "'fig_3_2.stagnant_from_deg': 31 must be below half_angle"),
     ("fig_4_5_map.color_range", [30, 0.1], "'fig_4_5_map.color_range': 30 must be below 0.1"),
-    ("transient.fig_4_3_norms.norms", ["L2", "discrete"], "'transient.fig_4_3_norms.norms': "),
-    ("transient.fig_4_3_norms.psi_scales", [2], "'transient.fig_4_3_norms.psi_scales': [2] is too"),
 ]  # fmt: skip
 
 

@@ -43,6 +43,20 @@ def test_every_entry_is_a_figure(config):
     assert set(FIGURES) <= {drawing.figure for drawing in entries.drawings(config)}
 
 
+@pytest.mark.parametrize(
+    ("figure", "number"),
+    [
+        ("fig_3_1", "3.1"),
+        ("fig_4_4_30", "4.4 30"),
+        ("fig_jenike", "jenike"),
+        ("fig_4_5_map", "4.5 map"),
+        ("my_cone", "my cone"),
+    ],
+)
+def test_figures_are_listed_by_their_numbers(figure, number):
+    assert entries.number_of(figure) == number
+
+
 @pytest.mark.workflow
 def test_entries_give_their_figures_without_a_rule_edited(rebuilt):
     path = rebuilt.path / "own.yaml"
@@ -52,6 +66,7 @@ def test_entries_give_their_figures_without_a_rule_edited(rebuilt):
     assert done.returncode == 0, done.stderr
     for name in wanted:
         assert (rebuilt.path / name).stat().st_size > 10_000
+        (rebuilt.path / name).unlink()
     asked = rebuilt.snakemake("-n", "--configfile", path.name).stdout
     assert "rule all" in asked
     for name in FIGURES:

@@ -25,7 +25,7 @@ def test_moving_the_clone_reruns_nothing(rebuilt):
 
 def test_a_figures_parameter_reruns_its_chain_only(rebuilt):
     rebuilt.set("radial.fig_3_1.mu", [0, 0.25])
-    chain = {"solve_radial/fig_3_1", "plot_fig_3_1", "compute_model_checks"}
+    chain = {"solve_radial/fig_3_1", "plot_fig_3_1/fig_3_1", "compute_model_checks"}
     assert rebuilt.reruns() == chain | LEDGER
 
 
@@ -46,7 +46,7 @@ def test_more_rows_of_a_map_leave_the_number_of_jobs(rebuilt):
 
 def test_a_mark_in_a_figure_reruns_its_plot_only(rebuilt):
     rebuilt.set("fig_3_2.stagnant_from_deg", 21)
-    assert rebuilt.reruns() == {"plot_fig_3_2"}
+    assert rebuilt.reruns() == {"plot_fig_3_2/fig_3_2"}
 
 
 def test_the_plot_style_reruns_all_plots_only(rebuilt):
@@ -84,7 +84,7 @@ def test_editing_a_module_reruns_the_rules_whose_scripts_load_it(rebuilt: Workfl
 
 def test_editing_what_only_plots_load_draws_all_figures_anew(rebuilt):
     rebuilt.edit(
-        "scripts/hopper_workflow/plotting.py", "PAGE_WIDTH = 3.5, 7.1", "PAGE_WIDTH = 3.5, 7.2"
+        "scripts/hopper_workflow/plotting.py", "PAGE_WIDTH = 3.4, 7.1", "PAGE_WIDTH = 3.4, 7.2"
     )
     assert {job.split("/")[0] for job in rebuilt.reruns()} == PLOTS
 
@@ -121,4 +121,4 @@ def test_touching_files_reruns_nothing(rebuilt):
 
 
 def test_one_figure_can_be_asked_for(fresh):
-    assert fresh.reruns("figures/fig_3_1.png") == {"solve_radial/fig_3_1", "plot_fig_3_1"}
+    assert fresh.reruns("figures/fig_3_1.png") == {"solve_radial/fig_3_1", "plot_fig_3_1/fig_3_1"}

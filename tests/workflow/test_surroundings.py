@@ -13,23 +13,13 @@ import yaml
 
 from hopper_workflow import commit, effective, surroundings, targets
 from tests.reliability import comparison, record
-from tests.workflow.conftest import ROOT, Workflow, with_make
+from tests.workflow.conftest import HOST, ROOT, Workflow, with_make
 
 pytestmark = pytest.mark.workflow
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
 MATPLOTLIBRC = "font.size: 31\ntext.usetex: True\nlines.linewidth: 9\nsavefig.dpi: 17\n"
 # A module that stops whatever finds it on its path.
 TRAP = "raise SystemExit('a module of the user has been imported')\n"
-HOST_OF_0_1_0 = """
-configfile: "silos.yaml"
-
-module hopper:
-    snakefile: {clone!r} + "/Snakefile"
-    config: config["hopper"]
-    prefix: "silo"
-
-use rule * from hopper as hopper_*
-"""
 
 
 def hostile(folder: Path) -> dict[str, str]:
@@ -290,6 +280,6 @@ def test_a_host_workflow_of_0_1_0_finds_its_jobs(fresh, tmp_path):
     host = Workflow(tmp_path / "host")
     host.path.mkdir()
     (host.path / "silos.yaml").write_text(yaml.safe_dump({"hopper": old}))
-    (host.path / "Snakefile").write_text(HOST_OF_0_1_0.format(clone=str(fresh.path)))
+    (host.path / "Snakefile").write_text(HOST.format(clone=str(fresh.path)))
     jobs = host.reruns("hopper_all")
-    assert {"hopper_judge_claims", "hopper_plot_fig_4_4/fig_4_4", "hopper_plot_fig_4_5"} <= jobs
+    assert {"judge_claims", "plot_fig_4_4/fig_4_4", "plot_fig_4_5"} <= jobs

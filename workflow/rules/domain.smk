@@ -195,7 +195,7 @@ rule plot_fig_4_4:
             caption="../report/fig_4_4.rst",
             category="4 Stability",
             labels=lambda wildcards: labels(
-                number_of(wildcards.figure),
+                entries.number_of(wildcards.figure),
                 f"max Re λ over wall friction, half angle {curve('half_angle_deg')(wildcards):g}°",
                 "wedge, cone",
                 "paper and physical",

@@ -41,7 +41,9 @@ rule plot_fig_march_breakdown:
             caption="../report/fig_march_breakdown.rst",
             category="5 Marches down the hopper",
             labels=lambda wildcards: labels(
-                number_of(wildcards.figure), "characteristics and psi up to the first crossing", geometries("march_breakdown")(wildcards)
+                number_of(wildcards.figure),
+                "characteristics and psi up to the first crossing",
+                geometries("march_breakdown")(wildcards),
             ),
         ),
         pdf="figures/{figure}.pdf",
@@ -100,7 +102,9 @@ rule plot_fig_march_decay:
             caption="../report/fig_march_decay.rst",
             category="5 Marches down the hopper",
             labels=lambda wildcards: labels(
-                number_of(wildcards.figure), "return to the radial field against the linear prediction", geometries("march_decay")(wildcards)
+                number_of(wildcards.figure),
+                "return to the radial field against the linear prediction",
+                geometries("march_decay")(wildcards),
             ),
         ),
         pdf="figures/{figure}.pdf",
@@ -159,7 +163,9 @@ rule plot_fig_march_breakdown_amplitude:
             caption="../report/fig_march_breakdown_amplitude.rst",
             category="5 Marches down the hopper",
             labels=lambda wildcards: labels(
-                number_of(wildcards.figure), "depth of breakdown over amplitude", geometries("march_amplitude")(wildcards)
+                number_of(wildcards.figure),
+                "depth of breakdown over amplitude",
+                geometries("march_amplitude")(wildcards),
             ),
         ),
         pdf="figures/{figure}.pdf",
@@ -219,7 +225,9 @@ rule plot_fig_march_depth:
             caption="../report/fig_march_depth.rst",
             category="5 Marches down the hopper",
             labels=lambda wildcards: labels(
-                number_of(wildcards.figure), "how far down until the stress is radial", geometries("march_depth")(wildcards)
+                number_of(wildcards.figure),
+                "how far down until the stress is radial",
+                geometries("march_depth")(wildcards),
             ),
         ),
         pdf="figures/{figure}.pdf",

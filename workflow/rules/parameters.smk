@@ -3,21 +3,11 @@
 # =================================================================================================
 
 import math
-import re
 
 
 def labels(figure, shows, geometry, formulation="—"):
     """Columns of a figure's row in the report; its section is the category."""
     return {"figure": figure, "shows": shows, "geometry": geometry, "formulation": formulation}
-
-
-def number_of(figure):
-    """Number of a figure of the paper, with what makes it another one; a free name as it is."""
-    match = re.fullmatch(r"fig_(?:(\d)_(\d))?_?(\w*)", figure)
-    if match is None:
-        return figure.replace("_", " ")
-    number = f"{match[1]}.{match[2]} " if match[1] else ""
-    return f"{number}{match[3].replace('_', ' ')}".strip()
 
 
 def radial(key):

@@ -43,7 +43,9 @@ rule plot_fig_3_1:
             caption="../report/fig_3_1.rst",
             category="3 Radial solutions",
             labels=lambda wildcards: labels(
-                number_of(wildcards.figure), "stress and velocity", radial("geometry")(wildcards)
+                entries.number_of(wildcards.figure),
+                "stress and velocity",
+                radial("geometry")(wildcards),
             ),
         ),
         pdf="figures/{figure}.pdf",
@@ -73,7 +75,9 @@ rule plot_fig_3_2:
             caption="../report/fig_3_2.rst",
             category="3 Radial solutions",
             labels=lambda wildcards: labels(
-                number_of(wildcards.figure), "velocity and angle ψ", radial("geometry")(wildcards)
+                entries.number_of(wildcards.figure),
+                "velocity and angle ψ",
+                radial("geometry")(wildcards),
             ),
         ),
         pdf="figures/{figure}.pdf",

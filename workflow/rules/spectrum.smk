@@ -179,7 +179,7 @@ rule plot_fig_4_2:
             caption="../report/fig_4_2.rst",
             category="4 Stability",
             labels=lambda wildcards: labels(
-                number_of(wildcards.figure), "discrete spectra", "wedge, cone", "paper"
+                entries.number_of(wildcards.figure), "discrete spectra", "wedge, cone", "paper"
             ),
         ),
         pdf="figures/{figure}.pdf",
@@ -214,7 +214,7 @@ rule plot_fig_4_2_physical:
             caption="../report/fig_4_2_physical.rst",
             category="4 Stability",
             labels=lambda wildcards: labels(
-                f"{number_of(wildcards.figure)} physical",
+                f"{entries.number_of(wildcards.figure)} physical",
                 "spectra and the line Λ",
                 "wedge, cone",
                 "physical",

@@ -109,7 +109,10 @@ rule plot_fig_4_3:
             caption="../report/fig_4_3.rst",
             category="4 Stability",
             labels=lambda wildcards: labels(
-                number_of(wildcards.figure), "norm of exp(−tM)", "wedge, cone", kept_in(wildcards)
+                entries.number_of(wildcards.figure),
+                "norm of exp(−tM)",
+                "wedge, cone",
+                kept_in(wildcards),
             ),
         ),
         pdf="figures/{figure}.pdf",
@@ -140,7 +143,7 @@ rule plot_fig_4_3_norms:
             caption="../report/fig_4_3_norms.rst",
             category="4 Stability",
             labels=lambda wildcards: labels(
-                number_of(wildcards.figure),
+                entries.number_of(wildcards.figure),
                 "growth in several norms",
                 "wedge, cone",
                 kept_in(wildcards),
@@ -183,7 +186,7 @@ rule plot_fig_pseudospectrum:
             caption="../report/fig_pseudospectrum.rst",
             category="4 Stability",
             labels=lambda wildcards: labels(
-                number_of(wildcards.figure),
+                entries.number_of(wildcards.figure),
                 "least singular value of zI − M",
                 "wedge, cone",
                 " and ".join(formulations(wildcards)),

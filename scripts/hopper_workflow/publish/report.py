@@ -8,6 +8,7 @@ from pathlib import Path
 
 from PIL import Image
 
+from hopper_workflow import entries
 from hopper_workflow.artifacts import replacing
 from hopper_workflow.publish import run
 
@@ -34,6 +35,7 @@ def write_report(path: Path, configuration: Path | None) -> None:
         if page.count(place) != 1:
             raise run.RunError(f"the report has no place {_PLACE} for the figures")
         figures = [file for file in made if file.suffix == ".png"]
+        figures.sort(key=lambda file: file.stem.startswith("case_"))
         pictures = "".join(_picture(file) for file in figures)
         temporary.write_text(page.replace(place, json.dumps(pictures)[1:-1]), encoding="utf-8")
 
@@ -46,7 +48,7 @@ def _picture(file: Path) -> str:
     content = io.BytesIO()
     small.quantize(64).save(content, "PNG", optimize=True)
     source = base64.b64encode(content.getvalue()).decode()
-    name = escape(file.stem.removeprefix("fig_").replace("_", " "))
+    name = escape(entries.number_of(file.stem))
     return (
         f'<figure class="small"><img alt="{name}" src="data:image/png;base64,{source}">'
         f"<figcaption>{name}</figcaption></figure>"

@@ -7,24 +7,29 @@ so that no radial flow reaches the wall although stress and its stability are re
 """
 
 from dataclasses import dataclass
-from math import pi
+from math import pi, radians
 from typing import Self
 
 import numpy as np
 from scipy.optimize import brentq
 
 from hopper.arguments import Radians, RealRow, checked
-from hopper.arrays import Array
+from hopper.arrays import Array, Mask
 from hopper.brief import brief
 from hopper.domain.growth import ROOT_TOLERANCE
 from hopper.domain.neutral_curve import NeutralCurve
 from hopper.errors import NoRadialSolutionError
 from hopper.problem import Geometry, Hopper
 from hopper.radial.collocation import Closure, Member
-from hopper.radial.family import family, neighbour
+from hopper.radial.family import family, neighbour, smooth_wall_member
 from hopper.radial.friction_limit import friction_limit
+from hopper.radial.members import member_with_tau
 from hopper.radial.solution import solution_of
 from hopper.stability.tilted import require_mohr_coulomb, tangency_angle
+
+# How far a border may be off the chord of its neighbours, radians, and how often an interval is
+# halved.
+_OFF_CHORD, _HALVINGS = radians(0.03), 5
 
 
 @checked
@@ -98,6 +103,28 @@ def singular_velocity_friction(hopper: Hopper) -> float | None:
     return friction_reaching(hopper, pi / 4)
 
 
+@checked
+def positive_stress_friction(hopper: Hopper) -> float | None:
+    """Return the least wall friction angle (radians) with positive stress, None if there is none.
+
+    It is 0 where a smooth wall has positive stress.
+
+    Raises
+    ------
+    NoRadialSolutionError
+        If not even a smooth wall has a radial solution.
+    ConvergenceError
+        If the radial solution of infinite stress on the axis is not resolved.
+    """
+    if smooth_wall_member(hopper).tau > 0:
+        return 0.0
+    try:
+        member = member_with_tau(hopper, 0.0)
+    except NoRadialSolutionError:
+        return None
+    return hopper.material.friction_angle(hopper.delta, member.psi_wall) if member.rising else None
+
+
 @dataclass(frozen=True)
 class Borders:
     """Wall friction angles (radians) at which something ends, over delta; NaN where it does not.
@@ -116,6 +143,8 @@ class Borders:
         psi reaches pi/4 - delta/2.
     singular_velocity : array
         psi reaches pi/4.
+    positive_stress : array
+        The stress is positive above; 0 where it is for a smooth wall.
     """
 
     delta: Array
@@ -124,6 +153,7 @@ class Borders:
     end: tuple[str, ...]
     tangency: Array
     singular_velocity: Array
+    positive_stress: Array
 
     __repr__ = brief("delta deg", "limit deg", "tangency deg")
 
@@ -143,7 +173,7 @@ def borders(geometry: Geometry, half_angle: Radians, deltas: RealRow) -> Borders
         If a radial solution on a border is not resolved.
     """
     delta = np.asarray(deltas)
-    table = np.full((4, delta.size), np.nan)
+    table = np.full((5, delta.size), np.nan)
     ends = []
     for i, value in enumerate(delta):
         hopper = Hopper(geometry, float(value), half_angle)
@@ -153,13 +183,63 @@ def borders(geometry: Geometry, half_angle: Radians, deltas: RealRow) -> Borders
             ends.append("none")
             continue
         ends.append(limit.end)
-        levels = tangency_friction(hopper), singular_velocity_friction(hopper)
+        levels = (
+            tangency_friction(hopper),
+            singular_velocity_friction(hopper),
+            positive_stress_friction(hopper),
+        )
         table[:, i] = (
             limit.friction_angle,
             limit.error_estimate,
             *(np.nan if phi is None else phi for phi in levels),
         )
-    return Borders(delta, table[0], table[1], tuple(ends), table[2], table[3])
+    return Borders(delta, table[0], table[1], tuple(ends), *table[2:])
+
+
+@checked
+def traced_borders(geometry: Geometry, half_angle: Radians, deltas: RealRow) -> Borders:
+    """Return the borders over ``deltas`` (radians), and over more where they bend or begin.
+
+    An interval is halved, up to five times, while the chord beside it is off by more than 0.03
+    degrees, or a border begins in it.
+
+    Raises
+    ------
+    ConvergenceError
+        As :func:`borders`.
+    """
+    found = borders(geometry, half_angle, deltas)
+    for _ in range(_HALVINGS):
+        rough = _rough(found)
+        if not rough.any():
+            break
+        middles = (found.delta[:-1] + found.delta[1:])[rough] / 2
+        found = _merged(found, borders(geometry, half_angle, middles))
+    return found
+
+
+def _merged(one: Borders, other: Borders) -> Borders:
+    """Return two results as one, over increasing delta."""
+    both = {name: (*vars(one)[name], *vars(other)[name]) for name in vars(one)}
+    order = np.argsort(both["delta"])
+    ends = both.pop("end")
+    arrays = {name: np.array(values)[order] for name, values in both.items()}
+    return Borders(**arrays, end=tuple(ends[index] for index in order))
+
+
+def _rough(found: Borders) -> Mask:
+    """Return the intervals in which a line between neighbours is not the border, shape (n - 1,)."""
+    x = found.delta
+    rough = np.zeros(x.size - 1, dtype=bool)
+    for y in (found.limit, found.tangency, found.singular_velocity, found.positive_stress):
+        known = np.isfinite(y)
+        rough |= known[:-1] != known[1:]
+        chord = y[:-2] + (y[2:] - y[:-2]) * (x[1:-1] - x[:-2]) / (x[2:] - x[:-2])
+        with np.errstate(invalid="ignore"):
+            off = np.abs(y[1:-1] - chord) > _OFF_CHORD
+        rough[:-1] |= off
+        rough[1:] |= off
+    return rough
 
 
 @checked

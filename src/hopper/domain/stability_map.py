@@ -11,7 +11,7 @@ from hopper.brief import brief
 from hopper.errors import ConvergenceError, InvalidParameterError, NoRadialSolutionError
 from hopper.problem import Hopper
 from hopper.radial.branch import branch_up_to, members_on
-from hopper.radial.collocation import Member
+from hopper.radial.collocation import Member, largest_psi
 from hopper.radial.members import physical_member
 from hopper.radial.solution import solution_of
 from hopper.stability.collocation import PARITIES, Parity
@@ -61,7 +61,7 @@ class Sweep:
     line : array, shape (n,)
         Abscissa of the asymptotic line.
     psi_max : array, shape (n,)
-        Largest psi on the radial solution's nodes, radians.
+        Largest psi of the radial solution, radians.
     governed_by, parity : integer arrays, shape (n,)
         What the abscissa is due to, index into ``GOVERNED_BY`` and ``PARITY``; 0 without a verdict,
         and the parity also where the line governs.
@@ -116,7 +116,7 @@ def sweep_friction(
             region[i] = _NOT_CONVERGED
         else:
             region[i], values[:-1, i], codes[:, i] = _row(result)
-            values[-1, i] = solution.psi.max()
+            values[-1, i] = largest_psi(solution.member)
     return Sweep(angles, region, *values, *codes)
 
 

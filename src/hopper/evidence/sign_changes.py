@@ -20,6 +20,9 @@ from hopper.errors import InvalidParameterError
 _STEEP = 5
 # A step is no kink's, which lies between its neighbours, if it is this much off their mean.
 _UNLIKE = 1
+# Secant steps before a sign change is taken for a jump, and how far beyond the root they go, in
+# widths of a bracket.
+_SECANTS, _BESIDE = 2, 0.45
 # How many steps a bracket of a sign change, and each of its neighbours, is divided into.
 _PARTS = 3
 
@@ -97,15 +100,21 @@ def _irregular(steps: Array) -> NDArray[np.bool_]:
 def _narrowed(
     function: Callable[[float], float], x: Array, y: Array, at: int, width: float
 ) -> Change:
-    """Halve the interval from ``at`` to the next point down to a width, or to a gap."""
+    """Divide the interval from ``at`` to the next point down to a width, or to a gap."""
     slopes = np.diff(y) / np.diff(x)
     beside = np.delete(slopes[max(at - 1, 0) : at + 2], min(at, 1))
     beside = beside[np.isfinite(beside)]
     slope = float(beside.mean()) if beside.size else 0.0
     left, right, low, high = (float(one) for one in (x[at], x[at + 1], y[at], y[at + 1]))
     signs = (low > 0) != (high > 0)
+    secants = _SECANTS if signs else 0
     while right - left > width:
         middle = (left + right) / 2
+        if secants:
+            root = left + (right - left) * low / (low - high)
+            # Just beyond the root as seen from the closer end, which is to be the other end.
+            beyond = root + np.copysign(_BESIDE * width, middle - root)
+            middle, secants = float(np.clip(beyond, left, right)), secants - 1
         value = function(middle)
         if not np.isfinite(value):
             break

@@ -104,10 +104,8 @@ def members_on(branch: Branch, psi_walls: Row, tolerance: float = TOLERANCE) -> 
     for rows, grid, u in _interpolated(branch, psi_walls):
         layers = np.array([layer_clustering(hopper, float(tau)) for tau in u[:, -1]])
         for layer in map(float, set(layers)):
-            chosen, first = layers == layer, half_grid(_SIZES[0], hopper.half_angle, float(layer))
-            starts.setdefault(float(layer), []).append(
-                (rows[chosen], moved(u[chosen], grid, first))
-            )
+            chosen, first = layers == layer, half_grid(_SIZES[0], hopper.half_angle, layer)
+            starts.setdefault(layer, []).append((rows[chosen], moved(u[chosen], grid, first)))
     for layer, parts in starts.items():
         rows = np.concatenate([part[0] for part in parts])
         u = np.concatenate([part[1] for part in parts])

@@ -19,11 +19,13 @@ from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.problem import Hopper
 from hopper.radial.equations import slopes
-from hopper.radial.grid import Grid, transfer
+from hopper.radial.grid import Grid, half_grid, transfer
 from hopper.radial.steps import CLOSED, Unknown, closed_system, normal_weight, size_of, solved_by
 from hopper.spectral import chebyshev
 
 _NEWTON_STEPS = 25
+# Half-grid points on which an extremum inside is looked for, and how much closer the next ones are.
+_FINE, _CLOSER = 80, 0.05
 # Radians below the singular angle from which on the distance to a square root at the wall counts.
 FAR = 0.3
 # That distance over theta_w from which on psi_w grows up to the singular angle.
@@ -153,6 +155,26 @@ def moved(u: Array, old: Grid, new: Grid) -> Array:
     m = old.size
     even, odd = transfer(old, new, "even"), transfer(old, new, "odd")
     return np.concatenate([u[..., :m] @ even.T, u[..., m:-1] @ odd.T, u[..., -1:]], axis=-1)
+
+
+@checked
+def largest_psi(member: Member) -> float:
+    """Return the largest psi (radians) on [0, theta_w]: at the wall, or of a parabola inside."""
+    if member.psi.argmax() == member.grid.size - 1:
+        return member.psi_wall
+    fine = half_grid(_FINE, member.grid.half_angle, member.grid.map.clustering)
+    theta, psi = fine.theta, transfer(member.grid, fine, "odd") @ member.psi
+    for _ in range(2):
+        top = int(psi[1:-1].argmax()) + 1
+        three = slice(top - 1, top + 2)
+        x, y = theta[three], psi[three]
+        first, second = np.diff(y) / np.diff(x)
+        bend = (second - first) / (x[2] - x[0])
+        slope = first + bend * (x[1] - x[0])
+        place, step = x[1] - slope / (2 * bend), _CLOSER * (x[2] - x[0])
+        theta = np.clip(place + step * np.arange(-1, 2), 0, member.grid.half_angle)
+        psi = member.grid.interpolation(theta, "odd") @ member.psi
+    return float(psi.max())
 
 
 @checked

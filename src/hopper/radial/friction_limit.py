@@ -13,7 +13,7 @@ from hopper.radial.collocation import Closure, Member, newton
 from hopper.radial.family import SIZE, neighbour
 from hopper.radial.grid import Grid, half_grid
 from hopper.radial.pieces import End as End
-from hopper.radial.pieces import Limit, first_piece, pieces_from
+from hopper.radial.pieces import Limit, first_piece
 
 # Secant in log(tau) for the fold: first step, and the step at which it ends; rounding of the slope
 # leaves 1e-8.
@@ -62,18 +62,6 @@ def friction_limit(hopper: Hopper) -> FrictionLimit:
         If the end of the branch is not resolved.
     """
     return _of(hopper, first_piece(hopper).end)
-
-
-@checked
-def friction_limit_from(member: Member) -> FrictionLimit:
-    """Return the same from any member of the physical branch; the closer to the limit, the faster.
-
-    Raises
-    ------
-    ConvergenceError
-        If the end of the branch is not resolved.
-    """
-    return _of(member.hopper, next(pieces_from(member)).end)
 
 
 def _of(hopper: Hopper, end: Limit) -> FrictionLimit:

@@ -38,7 +38,7 @@ def refine(member: Member, tolerance: float = TOLERANCE) -> Member:
     """Solve on finer grids until the error is below the tolerance, or of rounding size.
 
     The first Newton step on a finer grid is the error of the coarser one. That of the finer one
-    follows from geometric convergence.
+    follows from geometric convergence, if both are of one kind.
 
     Raises
     ------
@@ -54,9 +54,12 @@ def refine(member: Member, tolerance: float = TOLERANCE) -> Member:
         if finer is None:
             break
         error, least = finer.error, rounding(finer)
+        alike = grid.map.plain == member.grid.map.plain
+        if not alike:
+            observed.clear()
         stagnant = bool(observed) and observed[-1][1] / 2 < error < 1e-9
         observed.append((member.grid.size, error))
-        if not stagnant:
+        if alike and not stagnant:
             error = min(error, extrapolated(observed, finer.grid))
         member = replace(finer, error=error + least)
         if error < max(tolerance, least) or stagnant:
@@ -103,16 +106,20 @@ def fitted(member: Member, last_step: float = 1e-7) -> Member:
 
 @checked
 def grid_for(member: Member, size: int, clustering: float) -> Grid:
-    """Return the grid of that clustering with points where psi of a member is close to singular."""
+    """Return the grid of that clustering with points where psi of a member is close to singular.
+
+    One that has such points keeps them a while: convergence is seen on grids of one kind.
+    """
     angle, by = member.hopper.half_angle, Map(clustering)
+    bent = _BENT if member.grid.map.plain else 2 * _BENT
     if not 0 < member.gap.min() < FAR:
         return half_grid(size, angle, clustering)
     excess = member.excess
-    if excess < _BENT:
+    if excess < bent:
         return mapped_grid(size, angle, replace(by, bend=wall_bend(clustering, excess)))
     place, width = member.kink
     place, slope = by.on_clustered(place)
-    if width * slope < _BENT:
+    if width * slope < bent:
         return mapped_grid(size, angle, replace(by, kink=(place, width * slope)))
     return half_grid(size, angle, clustering)
 

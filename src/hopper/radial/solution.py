@@ -97,9 +97,10 @@ class RadialSolution:
         """Bound on the errors of log(sigma / sigma_0) and psi at any theta, and of log sigma_0.
 
         From the convergence of the mesh, and from rounding as the wall's friction magnifies it:
-        near the largest friction psi(theta_w) hardly determines the solution.
+        near the largest friction psi(theta_w) hardly determines the solution. Where the stress on
+        the axis is large, so is its error: tau = 1 / sigma_0 is known to the member's error.
         """
-        return self.member.error
+        return self.member.error * max(1.0, self.sigma_axis)
 
     @checked
     def psi_at(self, theta: RealLike) -> Array:

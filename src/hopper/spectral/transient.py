@@ -252,9 +252,7 @@ def growth_curves(
         If a time is negative, not finite or too long for the phases, stop is not above start, least
         is below 2, there is no case, or a case has no basis.
     """
-    for name, value in (("start", start), ("stop", stop)):
-        if not 0 <= value < inf:
-            raise InvalidParameterError(f"{name} = {value} must be finite and not negative")
+    _require_times({"start": start, "stop": stop})
     if stop <= start or least < 2:
         raise InvalidParameterError(
             f"start = {start}, stop = {stop}, least = {least}: stop must be above start, and least "
@@ -262,7 +260,7 @@ def growth_curves(
         )
     if not cases:
         raise InvalidParameterError("cases is empty: give the bases of at least one")
-    highest = max((_highest(bases) for bases in cases), default=0.0)
+    highest = max(_highest(bases) for bases in cases)
     _norm(cases[0], np.array([stop]), abscissa(cases[0]))
     halves = ceil(min(highest * (stop - start) / pi, _MOST_TIMES))
     first = np.linspace(start, stop, (least - 1) * max(1, ceil(halves / (least - 1))) + 1)
@@ -271,6 +269,12 @@ def growth_curves(
         first,
         _OFF_CHORD,
     )
+
+
+def _require_times(times: dict[str, float]) -> None:
+    for name, value in times.items():
+        if not 0 <= value < inf:
+            raise InvalidParameterError(f"{name} = {value} must be finite and not negative")
 
 
 def _highest(bases: Sequence[ModalBasis]) -> float:
@@ -304,9 +308,7 @@ def oscillation(
         If a time is negative, not finite or too long for the phases; if there are fewer than three
         points; or if no basis is given.
     """
-    for name, value in (("start", start), ("length", length), ("start + length", start + length)):
-        if not 0 <= value < inf:
-            raise InvalidParameterError(f"{name} = {value} must be finite and not negative")
+    _require_times({"start": start, "length": length, "start + length": start + length})
     if points < 3:
         raise InvalidParameterError(f"points = {points} times: give at least 3")
     times, (relative,) = growth_curves([bases], start, start + length, points)

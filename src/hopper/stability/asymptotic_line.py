@@ -103,7 +103,7 @@ def lines_on(
     last = chebyshev.last_half_coefficients(grid.size, "even", _LAST)
     left = [np.abs((part * grid.stretch) @ last.T).max(axis=1) for part in integrands]
     tail = np.maximum(*left) / travel_time
-    of_fields = np.array([solution.error_estimate for solution in solutions])
+    of_fields = np.array([solution.member.error for solution in solutions])
     error = tail + (np.abs(growth).max(axis=1) + size) * of_fields + _ROUNDING * size
     found = zip(abscissa, pi / travel_time, error, tail / size, strict=True)
     return [AsymptoticLine(*map(float, values)) for values in found]

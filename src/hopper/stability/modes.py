@@ -288,7 +288,7 @@ def _low_modes(
             continue
         # Rounding of the collocation matrix: a few units of its condition, about size ** 2.
         relative = _MESH_SAFETY * error[:run] + _EPS * size**2
-        relative += _FIELD_SAFETY * solution.error_estimate
+        relative += _FIELD_SAFETY * solution.member.error
         resolved = Modes(fine[:run], relative * np.maximum(np.abs(fine[:run]), 1))
         best = resolved._first(wanted.count, wanted.line)
         converged, top = best.eigenvalues.size, best.highest
