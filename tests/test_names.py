@@ -213,9 +213,9 @@ def results():
         *sign_changes(np.cos, [1.0, 2.0], 0.1), base, state, state.at, base_table(base),
         ray_slopes(state.at, np.tan(state.psi), state.light), stress_of(0.5, state.psi, state.psi),
         assessed, assessed.at, marched, marched.top, marched.settled[0], marched.history,
-        marched.history.loop, marched.history.loop.mesh, net, short_waves(wedge), Crossing(0.1, 0.1, 1, 1e-6),
+        marched.history.loop, marched.history.loop.mesh, net, short_waves(wedge),
         net_verdict(net, lambda x: riemann_deviation(base, scaled(1.0), x), 0.01, 1e-5, False),
-        Breakdown(0.1, 1e-6, 0.5, 0.9),
+        Crossing(0.1, 0.1, 1, 1e-6), Breakdown(0.1, 1e-6, 0.5, 0.9),
     ]  # fmt: skip
     assert all(found)
     return {type(item).__name__: item for item in found}

@@ -197,9 +197,9 @@ def _steepest(row: Array) -> float:
     largest = -np.inf
     for sign, w, slope in ((1, PLUS, 4), (-1, MINUS, 5)):
         along = sign * step[THETA]
-        # From line to line at the same y: the way along them is taken back.
+        # From line to line at the same tau: the way along them is taken back.
         later = middle[slope] * along - step[TAU]
-        rise = step[w] - middle[slope + 2] * along
+        rise = step[w] - middle[slope + 2] * step[TAU] / middle[slope]
         largest = max(largest, float(np.where(sign * later > 0, rise / later, np.inf).max()))
     return largest
 
