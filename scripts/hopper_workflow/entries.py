@@ -97,6 +97,17 @@ def problems(config: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
                 yield f"{section}.{name}.{values}", problem
 
 
+def files_of_tops(entry: Mapping[str, Any]) -> list[str]:
+    """Return the files that hold tops of an entry of ``march_breakdown`` or ``march_depth``."""
+    tops = entry["tops"] if "tops" in entry else [entry["top"]]
+    return [top["name"] for top in tops if is_file_of_top(top["name"])]
+
+
+def is_file_of_top(name: str) -> bool:
+    """Return whether the name of a top is that of a file."""
+    return name.endswith((".csv", ".nc"))
+
+
 def _curves(transient: Mapping[str, Any]) -> int:
     """Return the number of curves of an entry of ``transient``, for each geometry."""
     return len(transient["kept_in"]) * len(transient["norms"]) * len(transient["psi_scales"])

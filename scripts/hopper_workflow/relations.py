@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator, Mapping
 from math import atan, radians
+from pathlib import Path
 from typing import Any
 
 from hopper_workflow import entries
@@ -119,13 +120,16 @@ def _tops(config: Mapping[str, Any]) -> Iterator[tuple[str, str, Mapping[str, An
 
 def _top(key: str, geometry: str, name: str, **numbers: float) -> Iterator[Violation]:
     """Check that a top has the number it needs and no other, and is symmetric in a cone."""
+    of_file = entries.is_file_of_top(name)
     needed = {"scaled": {"factor"}, "linear": set(), "bin": set()}.get(name, {"eps"})
-    if name.endswith((".csv", ".nc")):
+    if of_file:
         needed = set()
     if set(numbers) != needed:
         yield key, f"{name} needs {' and '.join(needed) or 'no number'} beside its name"
     if name == "one-sided" and geometry == "cone":
         yield key, "the top of a cone must be symmetric: use bump-s"
+    if of_file and not Path(name).is_file():
+        yield key, f"there is no file {name}: correct its path from the folder of the run"
 
 
 def _wall(

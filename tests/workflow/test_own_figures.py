@@ -125,6 +125,7 @@ def test_bounds_are_of_one_curve(config):
         ({"name": "bin", "factor": 2}, "bin needs no number beside its name"),
         ({"name": "mine.csv", "eps": 0.1}, "mine.csv needs no number beside its name"),
         ({"name": "flat"}, "top.name.: .flat. does not match"),
+        ({"name": "mine.csv"}, "top.: there is no file mine.csv: correct its path"),
     ],
 )
 def test_a_top_has_the_number_it_needs(config, top, words):
@@ -135,6 +136,16 @@ def test_a_top_has_the_number_it_needs(config, top, words):
 def test_the_top_of_a_cone_is_symmetric(config):
     config["march_breakdown"]["own_breakdown"]["hopper"]["geometry"] = "cone"
     refused(config, "own_breakdown.top.: the top of a cone must be symmetric: use bump-s")
+
+
+def test_jobs_read_the_files_of_tops(config, tmp_path):
+    file = tmp_path / "mine.nc"
+    file.touch()
+    entry = config["march_depth"]["own_depth"]
+    assert entries.files_of_tops(entry) == []
+    entry["tops"].append({"name": str(file)})
+    configuration.check(config, SCHEMA)
+    assert entries.files_of_tops(entry) == [str(file)]
 
 
 def test_older_words_are_understood(config):

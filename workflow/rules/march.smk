@@ -6,6 +6,7 @@
 rule compute_march_breakdown:
     """Marches: a march of the stress to its breakdown, entries of `march_breakdown`."""
     input:
+        files=files_of_tops("march_breakdown"),
         code=code_of("compute_march_breakdown"),
     output:
         artifact="results/march_breakdown/{figure}.nc",
@@ -189,6 +190,7 @@ rule plot_fig_march_breakdown_amplitude:
 rule compute_march_depth:
     """Marches: tops marched down hoppers, entries of `march_depth`."""
     input:
+        files=files_of_tops("march_depth"),
         code=code_of("compute_march_depth"),
     output:
         artifact="results/march_depth/{figure}.nc",

@@ -72,6 +72,11 @@ def march(section, key):
     return lambda wildcards: config[section][wildcards.figure][key]
 
 
+def files_of_tops(section):
+    """The files that hold tops of a figure of marches."""
+    return lambda wildcards: entries.files_of_tops(config[section][wildcards.figure])
+
+
 def geometries(section):
     """The geometries of a figure of marches, for its row in the report."""
 
