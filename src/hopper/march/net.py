@@ -25,7 +25,7 @@ from hopper.march.equations import both_families, psi_factor, tilt
 TAU, THETA, PLUS, MINUS = 0, 1, 2, 3
 SLOPES, _SOURCES, _RATES = slice(4, 6), slice(6, 8), slice(4, 8)
 # Change of w below which a point counts as found, and the largest number of iterations.
-_CHANGE, _ITERATIONS = 1e-12, 10
+_CHANGE, _ITERATIONS = 1e-10, 10
 # The end of the rows at the axis of a cone, over theta_w: a place for it, from which nothing goes.
 _AXIS = 1e-9
 
