@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from hopper_workflow import artifacts, jobs, marches
+from hopper.arrays import Array
 from hopper.march.base import Base
 from hopper.march.optics import estimated_breakdown, threshold_factor
 from hopper.march.outcome import first_crossing
@@ -24,12 +25,14 @@ def compute_march_amplitude(
     hoppers: Sequence[Mapping[str, Any]],
     top: str,
     eps: Sequence[float],
+    estimates: int,
     depth: float,
     cells: int,
     tolerance: float,
 ) -> xr.Dataset:
     """Find the first crossing of each amplitude in each hopper."""
     report = jobs.progress(logging.getLogger(), "hoppers")
+    estimated = np.geomspace(min(eps), max(eps), estimates)
     found: list[dict[str, Any]] = []
     for hopper in hoppers:
         base = marches.base(hopper)
@@ -45,17 +48,17 @@ def compute_march_amplitude(
                     for v in verdicts
                 ],
                 "line": asymptotic_line(base.solution).abscissa,
-                **_optics(base, top, eps),
+                **_optics(base, top, estimated),
             }
         )
         report(len(found), len(hoppers))
-    return dataset({"hoppers": found, "eps": eps}, TABLE, AXES)
+    return dataset({"hoppers": found, "eps": eps, "estimated": estimated}, TABLE, AXES)
 
 
-def _optics(base: Base, top: str, eps: Sequence[float]) -> dict[str, Any]:
+def _optics(base: Base, top: str, eps: Array) -> dict[str, Any]:
     """Return the estimates of geometric optics, NaN for cones."""
     if base.hopper.curvature:
-        return {"estimate": np.full(len(eps), np.nan), "threshold": _NONE}
+        return {"estimate": np.full(eps.size, np.nan), "threshold": _NONE}
     estimates = [estimated_breakdown(base, top_of(top, size)) for size in eps]
     return {
         "estimate": [_NONE if each is None else each for each in estimates],
@@ -74,13 +77,16 @@ TABLE: Table = (
         "hopper eps",
         "hoppers.kind",
     ),
-    number("estimate", "geometric optics: tau of breakdown", "hopper eps", "hoppers.estimate"),
+    number(
+        "estimate", "geometric optics: tau of breakdown", "hopper estimate_eps", "hoppers.estimate"
+    ),
     number("threshold", "geometric optics: largest eps that decays", "hopper", "hoppers.threshold"),
     number("line", "asymptotic line of Re(lambda)", "hopper", "hoppers.line"),
 )
 AXES: Table = (
     text("hopper", "hopper: delta, half angle (degrees), mu", "hopper", "hoppers.name"),
     number("eps", "amplitude of the top", "eps"),
+    number("estimate_eps", "amplitude of the estimate", "estimate_eps", "estimated"),
 )
 
 if __name__ == "__main__":

@@ -25,6 +25,7 @@ def compute_march_decay(
     depth: float,
     points: int,
     linear_eps: float,
+    cells: int,
 ) -> xr.Dataset:
     """March tops of several amplitudes down several hoppers."""
     report = jobs.progress(logging.getLogger(), "hoppers")
@@ -32,7 +33,9 @@ def compute_march_decay(
     found: list[dict[str, Any]] = []
     for hopper in hoppers:
         base = marches.base(hopper)
-        marched = [march(base, top_of(top, size), depth) for size in (*eps, linear_eps)]
+        marched = [
+            march(base, top_of(top, size), depth, cells=cells) for size in (*eps, linear_eps)
+        ]
         distance = [_distance(each, tau) for each in marched]
         stability = linear_stability(base.solution, "symmetric")
         found.append(

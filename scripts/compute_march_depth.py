@@ -34,7 +34,7 @@ def compute_march_depth(
         marched = []
         for top in tops:
             found_here = march(base, top_of(**top), depth, tolerance, _LEVELS, cells)
-            marched.append(_numbers(found_here))
+            marched.append(_numbers(found_here, depth))
             report(len(found) * len(tops) + len(marched), len(hoppers) * len(tops))
         line = asymptotic_line(base.solution).abscissa
         name = marches.name_of_hopper(**hopper)
@@ -43,12 +43,13 @@ def compute_march_depth(
     return dataset({"hoppers": found, "tops": names, "levels": list(_LEVELS)}, TABLE, AXES)
 
 
-def _numbers(found: March) -> dict[str, Any]:
+def _numbers(found: March, depth: float) -> dict[str, Any]:
     end = found.breakdown
+    unbroken = "none" if found.trusted_tau == depth else "not_trusted"
     return {
         "radius": [np.nan if each.radius is None else each.radius for each in found.settled],
         "error": [np.nan if each.error is None else each.error for each in found.settled],
-        "kind": found.kind or "none",
+        "kind": found.kind or unbroken,
         "end": np.exp(-found.trusted_tau) if end is None else end.radius,
         "end_error": np.nan if end is None else end.error * end.radius,
     }
@@ -68,7 +69,7 @@ TABLE: Table = (
     flag(
         "breakdown_kind",
         "how the march ends",
-        ("none", "crossing", "tangency", "kink"),
+        ("none", "crossing", "tangency", "kink", "not_trusted"),
         "hopper top",
         "hoppers.marches.kind",
     ),

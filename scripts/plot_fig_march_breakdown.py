@@ -17,7 +17,7 @@ def draw(artifact: str) -> Figure:
         end = float(data.breakdown_x * data.theta[-1]), float(data.breakdown_tau)
     figure, (net, plane) = plotting.subplots(1, 2, height=3.6, sharey=True)
     pieces = np.stack([data.line_theta.to_numpy(), data.line_tau.to_numpy()], axis=2)
-    for family, color in (("plus", plotting.BLUE), ("minus", "0.45")):
+    for family, color in (("plus", plotting.BLUE), ("minus", "0.65")):
         chosen = pieces[data.line_family.to_numpy() == family]
         net.add_collection(LineCollection(list(chosen), colors=color, linewidths=0.5))
     net.set_xlim(fields["theta"][0], fields["theta"][-1])

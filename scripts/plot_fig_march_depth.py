@@ -19,7 +19,7 @@ def draw(artifact: str) -> Figure:
         _draw_top(axis, data.isel(top=index))
     for axis in axes[-min(3, len(axes)) :]:
         axis.set_xlabel(r"$r/r_\mathrm{top}$")
-    plotting.below(figure, _KEYS, 4)
+    plotting.below(figure, _KEYS, 3)
     return figure
 
 
@@ -46,12 +46,15 @@ _ENDS: dict[str, dict[str, Any]] = {
     "crossing": {"marker": "x", "color": plotting.ORANGE, "mew": 1.4},
     "tangency": {"marker": "d", "color": plotting.ORANGE},
     "kink": {"marker": "+", "color": plotting.BLACK, "mew": 1.4, "markersize": 6},
+    "not_trusted": {"marker": "s", "color": plotting.BLACK, "mfc": "white"},
 }
 _KEYS = (
     plotting.key("within 5 % for good", linestyle="", **_LEVELS[0]),
     plotting.key("within 1 % for good", linestyle="", **_LEVELS[1]),
     plotting.key("characteristics cross", linestyle="", **_ENDS["crossing"]),
+    plotting.key("characteristic tangent to an arc", linestyle="", **_ENDS["tangency"]),
     plotting.key("a kink breaks", linestyle="", **_ENDS["kink"]),
+    plotting.key("march not trusted", linestyle="", **_ENDS["not_trusted"]),
 )
 
 if __name__ == "__main__":

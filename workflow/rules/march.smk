@@ -86,6 +86,7 @@ rule compute_march_decay:
         depth=march("march_decay", "depth"),
         points=march("march_decay", "points"),
         linear_eps=march("march_decay", "linear_eps"),
+        cells=march("march_decay", "cells"),
     message:
         "compute_march_decay/{wildcards.figure}: Marches: marches of bumps of several amplitudes"
     script:
@@ -144,6 +145,7 @@ rule compute_march_amplitude:
         hoppers=march("march_amplitude", "hoppers"),
         top=march("march_amplitude", "top"),
         eps=march("march_amplitude", "eps"),
+        estimates=march("march_amplitude", "estimates"),
         depth=march("march_amplitude", "depth"),
         cells=march("march_amplitude", "cells"),
         tolerance=march("march_amplitude", "tolerance"),

@@ -36,9 +36,9 @@ _NEARLY = 0.98
 _SAMPLES, _RESIDUALS = 400, 5
 # Cells of the coarsest net of characteristics, and the largest number of nets.
 _CELLS, _NETS = 64, 4
-# Error wanted of the breakdown's tau.
-_BREAKDOWN = 1e-5
-# Largest difference of r / r_top between two meshes with which a settled radius is given.
+# Error wanted of the breakdown's tau, and in parts of the one wanted of log sigma and psi.
+_BREAKDOWN, _OF_BREAKDOWN = 1e-5, 0.1
+# Largest error of r / r_top with which a settled radius is given.
 _RADIUS = 0.02
 # exp(-700) is about the least r / r_top that is a number.
 _DEEPEST = 700.0
@@ -73,7 +73,8 @@ def march(
         Depth, positive.
     tolerance : float
         Wanted difference of two meshes in log sigma and psi (1e-3 at best, where a kink of the top
-        runs); before a breakdown, on the first four fifths of the way.
+        runs); before a breakdown, on the first four fifths of the way. A tenth of it is the wanted
+        error of the breakdown's tau.
     levels : sequence of float
         Distances from the radial field, over its sigma, for the settled radii.
     cells : int
@@ -99,10 +100,12 @@ def march(
     tell = report or _silent
     start = _history(base, top, _SIZES[1], 0.0, tell)
     kinked = corner_defect(start.loop, start.w[0]) > _COMPATIBLE
-    kind, stop, breakdown = _on_nets(base, top, tau_end, kinked, cells, tell)
+    verdict = _verdict(base, top, tau_end, kinked, _OF_BREAKDOWN * tolerance, tell, cells)
+    kind, stop, breakdown = _on_nets(base, verdict, tau_end)
     wanted = max(tolerance, _KINKED) if kinked else tolerance
-    coarse, fine, tau, error = _on_two_meshes(base, top, stop, wanted, stop < tau_end, tell)
-    trusted = float(tau[error <= _TRUSTED][-1])
+    on_two = _on_two_meshes(base, top, stop, wanted, stop < tau_end, levels, tell)
+    coarse, fine, tau, error = on_two
+    trusted = _trusted(tau, error)
     tangency = _tangency(coarse, fine, trusted)
     if tangency is not None:
         kind, breakdown = "tangency", tangency
@@ -117,7 +120,7 @@ def march(
         residual=_residual(fine, trusted if kind is None else _RESOLVABLE * trusted),
         differences=np.stack([tau, error])[:, tau <= trusted],
         kinked=kinked,
-        settled=tuple(_settled(coarse, fine, trusted, level) for level in levels),
+        settled=tuple(map(_settled, levels, _radii(coarse, fine, trusted, levels))),
         history=fine,
     )
 
@@ -183,10 +186,9 @@ def _history(base: Base, top: Top, points: int, tau_end: float, tell: Report = _
 
 
 def _on_nets(
-    base: Base, top: Top, tau_end: float, kinked: bool, cells: int, tell: Report
+    base: Base, verdict: NetVerdict, tau_end: float
 ) -> tuple[Kind | None, float, Breakdown | None]:
     """Return how nets see the march end, the time up to which they follow it, and the crossing."""
-    verdict = _verdict(base, top, tau_end, kinked, _BREAKDOWN, tell, cells)
     if verdict.first_tau is None:
         return None, tau_end, None
     if verdict.crossing is None:
@@ -216,7 +218,13 @@ def _breakdown(base: Base, tau: float, error: float, theta: float) -> Breakdown:
 
 
 def _on_two_meshes(
-    base: Base, top: Top, stop: float, tolerance: float, breaks: bool, tell: Report
+    base: Base,
+    top: Top,
+    stop: float,
+    tolerance: float,
+    breaks: bool,
+    levels: Sequence[float],
+    tell: Report,
 ) -> tuple[History, History, Array, Array]:
     """Return the march on two meshes, times, and their largest difference up to each of them."""
     x = np.linspace(0 if top.symmetric else -1, 1, ANGLES + 1)
@@ -225,7 +233,9 @@ def _on_two_meshes(
     for points in _SIZES[2:]:
         wanted = float(error[int(_RESOLVABLE * _SAMPLES) if breaks else -1])
         if wanted <= tolerance:
-            break
+            radii = _radii(coarse, fine, _trusted(tau, error), levels)
+            if all(each is None or each[1] <= _RADIUS for each in radii):
+                break
         finer = _history(base, top, points, stop, tell)
         finer_tau, finer_error = _differences(fine, finer, x)
         coarse, fine, tau, error = fine, finer, finer_tau, finer_error
@@ -262,11 +272,21 @@ def _residual(history: History, tau_end: float) -> float:
     return max(momentum_residual(history, float(each)) for each in times)
 
 
-def _settled(coarse: History, fine: History, tau_end: float, level: float) -> Settled:
-    """Return the settled radius of two meshes, where small deviations do not grow again."""
+def _radii(
+    coarse: History, fine: History, tau_end: float, levels: Sequence[float]
+) -> list[tuple[float, float] | None]:
+    """Return settled radii with their errors, where small deviations do not grow again."""
     if linear_growth(make_loop(fine.loop.base, _SIZES[0], fine.loop.legs)) >= 0:
+        return [None] * len(levels)
+    return [settled_radius(coarse, fine, tau_end, level) for level in levels]
+
+
+def _settled(level: float, found: tuple[float, float] | None) -> Settled:
+    if found is None or found[1] > _RADIUS:
         return Settled(level, None, None)
-    radii = [settled_radius(each, tau_end, level) for each in (coarse, fine)]
-    if radii[0] is None or radii[1] is None or abs(radii[1] - radii[0]) > _RADIUS:
-        return Settled(level, None, None)
-    return Settled(level, radii[1], abs(radii[1] - radii[0]))
+    return Settled(level, *found)
+
+
+def _trusted(tau: Array, error: Array) -> float:
+    """Return the time up to which two meshes agree."""
+    return float(tau[error <= _TRUSTED][-1])

@@ -26,7 +26,7 @@ class Settled:
     """r / r_top from which on the stress is within ``level`` of the radial field's, for good.
 
     That is to say: to the end of the trusted march, at least three loop times below. None where it
-    is not reached, not trusted, or small deviations grow; ``error`` is what two meshes differ by.
+    is not reached, not trusted, or small deviations grow.
     """
 
     level: float

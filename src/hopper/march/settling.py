@@ -11,7 +11,7 @@ from hopper.march.loop import History, Loop, jacobian
 from hopper.spectral import chebyshev
 
 # Samples per loop time, and angles on each half of the hopper.
-_PER_LOOP, _ANGLES = 64, 40
+_PER_LOOP, _ANGLES = 128, 40
 # Loop times after the last passage of a level in which it must not be passed again.
 _WAIT = 3
 # Part of the largest eigenvalue up to which eigenvalues of a loop count as resolved.
@@ -33,25 +33,40 @@ def linear_growth(loop: Loop) -> float:
     return float(values[modulus < _RESOLVED * modulus.max()].real.max())
 
 
-def settled_radius(history: History, tau_end: float, level: float) -> float | None:
+def settled_radius(
+    coarse: History, fine: History, tau_end: float, level: float
+) -> tuple[float, float] | None:
     """Return r / r_top from which on all stresses stay within ``level`` of the radial field's.
 
     The measure is the largest |T_ij - T0_ij| / sigma0 over the hopper and the components, its last
     passage of the level counts. As norms oscillate with the loop time, it must be some loop times
-    before ``tau_end``: None if it is not. In a cone a kink that is focused on the axis has a
-    logarithmic peak there: a level that only the peak touches is passed sooner on coarser meshes.
+    before ``tau_end``: None if it is not. The error, second, is what the passage shifts by if the
+    measure is wrong by what two meshes, whose errors fall like their spacing, tell: in a cone a
+    kink that is focused on the axis has a peak there, which coarse meshes cut off.
     """
-    loop = history.loop
+    loop, other = fine.loop, coarse.loop
     x = np.linspace(0 if loop.legs == 1 else -1, 1, _ANGLES + 1)
     loops = tau_end / loop_time(loop)
-    samples = ceil(_PER_LOOP * loops) + 1
-    tau = np.linspace(0, tau_end, samples)
-    # Tilted time meets each angle at its own depth.
-    passage = np.array([_last_passage(tau, each, level) for each in distances(history, tau, x).T])
-    if passage.max() > tau_end * (1 - _WAIT / loops):
-        return None
+    tau = np.linspace(0, tau_end, ceil(_PER_LOOP * loops) + 1)
+    distance = distances(fine, tau, x)
+    factor = other.y.size / (loop.y.size - other.y.size)
+    error = factor * np.abs(distance - distances(coarse, tau, x))
+    latest = tau_end * (1 - _WAIT / loops)
     height = tilt_height(loop.base, loop.base.hopper.half_angle * x)
-    return float(np.exp(-passage - height).min())
+    radius, *others = (
+        _radius(tau, each, level, latest, height)
+        for each in (distance, distance - error, distance + error)
+    )
+    if radius == max(others) == 0.0:
+        return None
+    return radius, max(abs(each - radius) for each in others)
+
+
+def _radius(tau: Array, distance: Array, level: float, latest: float, height: Array) -> float:
+    """Return the r / r_top that (times, angles) of ``distance`` tell; 0 if it is not reached."""
+    # Tilted time meets each angle at its own depth.
+    passage = np.array([_last_passage(tau, each, level) for each in distance.T])
+    return float(np.exp(-passage - height).min()) if passage.max() <= latest else 0.0
 
 
 def distances(history: History, tau: Array, x: Array) -> Array:
