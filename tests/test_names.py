@@ -152,6 +152,7 @@ def results():
     from hopper.march.crossing import Crossing, net_verdict
     from hopper.march.equations import ray_slopes
     from hopper.march.fields import stress_of
+    from hopper.march.lines import characteristics
     from hopper.march.net import make_net
     from hopper.march.optics import short_waves
     from hopper.march.result import Breakdown
@@ -216,6 +217,7 @@ def results():
         marched.history.loop, marched.history.loop.mesh, net, short_waves(wedge),
         net_verdict(net, lambda x: riemann_deviation(base, scaled(1.0), x), 0.01, 1e-5, False),
         Crossing(0.1, 0.1, 1, 1e-6), Breakdown(0.1, 1e-6, 0.5, 0.9),
+        characteristics(wedge, scaled(1.0), 4, 0.01),
     ]  # fmt: skip
     assert all(found)
     return {type(item).__name__: item for item in found}

@@ -10,7 +10,7 @@ from hopper.march.base import base_of, radial_fields, tilt_height
 from hopper.march.fields import deviations, state_at, stress_of
 from hopper.march.loop import make_loop
 from hopper.march.outcome import march
-from hopper.march.settling import linear_growth, loop_time
+from hopper.march.settling import linear_growth, loop_time, settled_radius
 from hopper.march.tops import (
     Top,
     bin_like,
@@ -144,6 +144,17 @@ def test_published_settled_radii(case, top, five, one):
         assert max(distances) < settled.level * (1 + 0.03)
         before = found.fields(-log(settled.radius) - 0.004, theta)
         assert distance(base(*case), before, x) > settled.level * (1 - 0.03)
+
+
+def test_a_peak_that_coarse_meshes_cut_off_is_an_error():
+    """Published: .49. On 48 and 64 points the peak at the axis stays below 1 % there: .577."""
+    under, top, tau = base("cone", 40, 10, 0.1), scaled(0.5), 1.3
+    coarse, fine = (
+        settled_radius(*(on_loop(under, top, n, tau) for n in pair), tau, 0.01)
+        for pair in ((48, 64), (128, 192))
+    )
+    assert coarse == pytest.approx((0.577, 0.092), abs=0.005)
+    assert fine == pytest.approx((0.485, 0.0), abs=0.005)
 
 
 @pytest.mark.parametrize(

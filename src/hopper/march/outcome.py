@@ -103,8 +103,7 @@ def march(
     verdict = _verdict(base, top, tau_end, kinked, _OF_BREAKDOWN * tolerance, tell, cells)
     kind, stop, breakdown = _on_nets(base, verdict, tau_end)
     wanted = max(tolerance, _KINKED) if kinked else tolerance
-    on_two = _on_two_meshes(base, top, stop, wanted, stop < tau_end, levels, tell)
-    coarse, fine, tau, error = on_two
+    coarse, fine, tau, error = _on_two_meshes(base, top, stop, wanted, tau_end, levels, tell)
     trusted = _trusted(tau, error)
     tangency = _tangency(coarse, fine, trusted)
     if tangency is not None:
@@ -222,7 +221,7 @@ def _on_two_meshes(
     top: Top,
     stop: float,
     tolerance: float,
-    breaks: bool,
+    tau_end: float,
     levels: Sequence[float],
     tell: Report,
 ) -> tuple[History, History, Array, Array]:
@@ -231,7 +230,7 @@ def _on_two_meshes(
     coarse, fine = (_history(base, top, points, stop, tell) for points in _SIZES[:2])
     tau, error = _differences(coarse, fine, x)
     for points in _SIZES[2:]:
-        wanted = float(error[int(_RESOLVABLE * _SAMPLES) if breaks else -1])
+        wanted = float(error[int(_RESOLVABLE * _SAMPLES) if stop < tau_end else -1])
         if wanted <= tolerance:
             radii = _radii(coarse, fine, _trusted(tau, error), levels)
             if all(each is None or each[1] <= _RADIUS for each in radii):
