@@ -26,8 +26,9 @@ from hopper.problem import Geometry
 from hopper.spectral import chebyshev
 
 Array = NDArray[np.float64]
-EPS, TAU, ERROR = 0.1, 1.0, 1e-6
+EPS, TAU, ERROR = 0.05, 1.0, 1e-6
 X = np.linspace(0, 1, 21)
+UPWIND = (82, 122, 162, 242, 322, 402)
 # geometry, delta, half angle (deg), mu, eps: cases with published crossings.
 CROSSINGS: tuple[tuple[Geometry, float, float, float, float], ...] = (
     ("wedge", 35, 10, 0, 0.1),
@@ -120,33 +121,35 @@ def first_good(method: Callable[[int], Array], sizes: tuple[int, ...], exact: Ar
     return None
 
 
-def compare(geometry: Geometry) -> None:
+def compare(geometry: Geometry, delta: float, half_angle: float, mu: float) -> None:
     """Print times of the three methods in one hopper."""
-    under = base(geometry, 50, 15, 0.1)
+    under = base(geometry, delta, half_angle, mu)
     exact = on_loop(under, 160)
-    own = first_good(lambda n: on_loop(under, n), (32, 40, 48, 64, 80, 96, 128), exact)
+    own = first_good(lambda n: on_loop(under, n), (24, 32, 40, 48, 64, 80, 96, 128), exact)
     assert own is not None
     ours = seconds(lambda: on_loop(under, own))
-    print(f"{geometry}: loop of {own} points: {ours:.2f} s per unit of tau")
-    size = first_good(lambda n: collocation(under, n), (32, 48, 64, 80, 96, 128), exact)
+    hopper = f"{geometry} {delta:g}/{half_angle:g}/{mu:g}"
+    print(f"{hopper}: loop of {own} points: {ours:.2f} s per unit of tau")
+    size = first_good(lambda n: collocation(under, n), (24, 32, 48, 64, 80, 96, 128), exact)
     if size is not None:
-        other = seconds(lambda: collocation(under, size), 1)
+        other = seconds(lambda: collocation(under, size))
         print(f"  Chebyshev collocation, {size} points: {other:.2f} s, {other / ours:.1f} x")
-    points = 402
-    error = float(np.abs(upwind(under, points) - exact).max())
-    time = seconds(lambda: upwind(under, points), 1)
-    more = max(1.0, (error / ERROR) ** (1 / 3))
+    points = first_good(lambda n: upwind(under, n), UPWIND, exact)
+    finest = points or UPWIND[-1]
+    time = seconds(lambda: upwind(under, finest))
+    more = 1.0
+    if points is None:
+        more = float((np.abs(upwind(under, finest) - exact).max() / ERROR) ** (1 / 3))
     other = time * more**2
-    print(
-        f"  upwind differences: error {error:.0e} with {points} points in {time:.2f} s; "
-        f"with {more:.1f} times as many {other:.1f} s, {other / ours:.0f} x"
-    )
+    print(f"  upwind differences, {finest * more:.0f} points: {other:.2f} s, {other / ours:.0f} x")
 
 
 def main() -> None:
     """Print times and ratios."""
-    compare("wedge")
-    compare("cone")
+    compare("wedge", 50, 15, 0.1)
+    compare("wedge", 45, 15, 0.2)
+    compare("cone", 50, 15, 0.1)
+    compare("cone", 38, 17, 0.12)
     times = []
     for *hopper, eps in CROSSINGS:
         under = base(*hopper)  # type: ignore[arg-type]

@@ -150,8 +150,8 @@ def test_a_peak_that_coarse_meshes_cut_off_is_an_error():
     """Published: .49. On 48 and 64 points the peak at the axis stays below 1 % there: .577."""
     under, top, tau = base("cone", 40, 10, 0.1), scaled(0.5), 1.3
     coarse, fine = (
-        settled_radius(*(on_loop(under, top, n, tau) for n in pair), tau, 0.01)
-        for pair in ((48, 64), (128, 192))
+        settled_radius(on_loop(under, top, n, tau), on_loop(under, top, m, tau), tau, 0.01)
+        for n, m in ((48, 64), (128, 192))
     )
     assert coarse == pytest.approx((0.577, 0.092), abs=0.005)
     assert fine == pytest.approx((0.485, 0.0), abs=0.005)
