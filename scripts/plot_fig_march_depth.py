@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from hopper_workflow import artifacts, jobs, plotting
 
@@ -19,7 +20,7 @@ def draw(artifact: str) -> Figure:
         _draw_top(axis, data.isel(top=index))
     for axis in axes[-min(3, len(axes)) :]:
         axis.set_xlabel(r"$r/r_\mathrm{top}$")
-    plotting.below(figure, _KEYS, 3)
+    plotting.below(figure, _keys(), 3)
     return figure
 
 
@@ -38,6 +39,20 @@ def _draw_top(axis: Axes, data: xr.Dataset) -> None:
     axis.set_title(str(data.top.item()))
 
 
+def _keys() -> list[Line2D]:
+    return [
+        plotting.key(name, linestyle="", **look)
+        for name, look in (
+            ("within 5 % for good", _LEVELS[0]),
+            ("within 1 % for good", _LEVELS[1]),
+            ("characteristics cross", _ENDS["crossing"]),
+            ("characteristic tangent to an arc", _ENDS["tangency"]),
+            ("a kink breaks", _ENDS["kink"]),
+            ("march not trusted", _ENDS["not_trusted"]),
+        )
+    ]
+
+
 _LEVELS: tuple[dict[str, Any], ...] = (
     {"marker": "o", "color": plotting.BLUE},
     {"marker": "o", "color": plotting.BLUE, "mfc": "white"},
@@ -48,14 +63,6 @@ _ENDS: dict[str, dict[str, Any]] = {
     "kink": {"marker": "+", "color": plotting.BLACK, "mew": 1.4, "markersize": 6},
     "not_trusted": {"marker": "s", "color": plotting.BLACK, "mfc": "white"},
 }
-_KEYS = (
-    plotting.key("within 5 % for good", linestyle="", **_LEVELS[0]),
-    plotting.key("within 1 % for good", linestyle="", **_LEVELS[1]),
-    plotting.key("characteristics cross", linestyle="", **_ENDS["crossing"]),
-    plotting.key("characteristic tangent to an arc", linestyle="", **_ENDS["tangency"]),
-    plotting.key("a kink breaks", linestyle="", **_ENDS["kink"]),
-    plotting.key("march not trusted", linestyle="", **_ENDS["not_trusted"]),
-)
 
 if __name__ == "__main__":
     jobs.run(plotting.saving(draw))
