@@ -1,10 +1,10 @@
 """What the subcommands answer, as text or JSON; files and plots on the way."""
 
-import json
 from argparse import Namespace
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import asdict
-from math import degrees, isfinite, radians
+from math import degrees, radians
 from pathlib import Path
 from typing import Any
 
@@ -13,21 +13,21 @@ import numpy as np
 from hopper.arrays import Array, Complex
 from hopper.assessment.coupled import CoupledStability, assess_coupled, assess_coupled_neutral
 from hopper.assessment.limits import assess_limits, tangency_coefficient
+from hopper.assessment.march import assess_march
 from hopper.assessment.neutral import Interval, NeutralPoint, assess_neutral
 from hopper.assessment.radial import assess_radial
-from hopper.assessment.stability import StabilityAssessment, assess_stability
+from hopper.assessment.stability import assess_stability
 from hopper.errors import ConvergenceError, NoRadialSolutionError, WallFrictionError
 from hopper.problem import as_geometry
-from hopper.quantity import Quantity
 from hopper.radial.solution import solve_radial
 from hopper.stability.collocation import Parity
-from hopper_cli import sentences, text
+from hopper_cli import documents, progress, sentences, text
 from hopper_cli.errors import UsageError
 from hopper_cli.outputs import write_csv
 from hopper_data import assessments, tables
 from hopper_data.assessments import Part
 from hopper_data.inputs import Case, Wall
-from hopper_data.tables import Row
+from hopper_data.tops import top_of
 
 _NO_TRANSIENT = (
     "no transient growth: the collocation matrix grows in ways that the equations do not"
@@ -45,17 +45,14 @@ def answer(options: Namespace) -> str:
     HopperError
         If there is no answer; the message says up to which friction there is one.
     """
-    commands = {"radial": _radial, "stability": _stability, "neutral": _neutral}
+    commands = {"radial": _radial, "stability": _stability, "neutral": _neutral, "march": _march}
     return commands[options.command](options)
 
 
 def _radial(options: Namespace) -> str:
     case = _case(options)
-    try:
+    with _explained(case):
         found = assess_radial(case.hopper, case.wall.friction_angle)
-    except ConvergenceError as error:
-        limit = assess_limits(case.hopper).coefficient
-        raise _explained(error, "a radial solution", limit) from None
     _write(options, case, found)
     rows = tables.rows(found, assessments.RADIAL)
     limits = tables.rows(found.limits, assessments.LIMITS)
@@ -64,7 +61,7 @@ def _radial(options: Namespace) -> str:
         main = [
             row for row in rows + limits if row.variable.name not in ("mu_limit", "mu_tangency")
         ]
-        return _json(
+        return documents.as_json(
             case.echoed(),
             rows + limits,
             limit_end=end,
@@ -72,7 +69,7 @@ def _radial(options: Namespace) -> str:
             notes=[*options.doubts, *found.notes],
         )
     shown = [row for row in limits if row.variable.name != "mu_limit" or end != "fold"]
-    return _text(
+    return documents.as_text(
         f"Radial solution: {case}",
         text.number_cells(rows + shown),
         [*found.notes, sentences.radial_sentence(found)],
@@ -83,7 +80,9 @@ def _stability(options: Namespace) -> str:
     case = _case(options)
     if case.model == "von-mises":
         return _coupled(options, case)
-    found = _assessed_stability(case, options)
+    with _explained(case):
+        solution = solve_radial(case.hopper, case.wall.friction_angle)
+        found = assess_stability(solution, options.disturbances, options.modes)
     _write(options, case, found)
     rows = tables.rows(found, assessments.STABILITY)
     rows += tables.rows({"tangency": tangency_coefficient(case.hopper)}, assessments.TANGENCY)
@@ -97,7 +96,7 @@ def _stability(options: Namespace) -> str:
         if values.size < options.modes
     ]
     if options.json:
-        return _json(
+        return documents.as_json(
             case.echoed(),
             rows,
             **{key: _pairs(shown.get(parity)) for parity, key in _JSON.items()},
@@ -114,7 +113,7 @@ def _stability(options: Namespace) -> str:
         for parity, pairs in shown.items()
         for number, (value, error) in enumerate(zip(*pairs, strict=True), start=1)
     ]
-    return _text(
+    return documents.as_text(
         f"Linear stability: {case}",
         cells + text.number_cells(rows),
         [*notes, sentences.stability_sentence(case.geometry, found)],
@@ -146,7 +145,7 @@ def _coupled(options: Namespace, case: Case) -> str:
         for edges in growth.strips.intervals.tolist():
             low, high = (text.rounded(edge, growth.strips.error_estimate) for edge in edges)
             cells.append(("strip of high frequency", f"{low} to {high}"))
-    return _text(
+    return documents.as_text(
         f"Linear stability: {case}",
         cells + text.number_cells(tables.rows(found, assessments.COUPLED)),
         [*notes, sentences.coupled_sentence(found)],
@@ -157,7 +156,7 @@ def _coupled_json(case: Case, found: CoupledStability, modes: _Pairs, notes: lis
     null = tables.rows({}, assessments.STABILITY + assessments.TANGENCY)
     rows = tables.rows(found, assessments.COUPLED)
     kind, growth = found.judged.type, found.judged.growth
-    return _json(
+    return documents.as_json(
         case.echoed(),
         [*null, *rows],
         type=found.type,
@@ -182,20 +181,51 @@ def _coupled_json(case: Case, found: CoupledStability, modes: _Pairs, notes: lis
     )
 
 
-def _assessed_stability(case: Case, options: Namespace) -> StabilityAssessment:
-    try:
-        solution = solve_radial(case.hopper, case.wall.friction_angle)
-        return assess_stability(solution, options.disturbances, options.modes)
-    except ConvergenceError as error:
-        limit = assess_limits(case.hopper).coefficient
-        raise _explained(error, "a radial solution", limit) from None
-
-
 _JSON: dict[Parity, str] = {"symmetric": "eigenvalues", "asymmetric": "asymmetric_eigenvalues"}
 
 
 def _pairs(modes: _Pairs | None) -> list[list[float]] | None:
     return modes and [[mode.real, mode.imag] for mode in modes[0].tolist()]
+
+
+def _march(options: Namespace) -> str:
+    case = _case(options)
+    top = top_of(options.top, options.eps, options.factor)
+    with _explained(case):
+        solution = solve_radial(case.hopper, case.wall.friction_angle)
+    with progress.on_terminal() as report:
+        found = assess_march(solution, top, options.depth, options.at_tau, report)
+    asked = {key: getattr(options, key) for key in ("top", "eps", "factor", "depth", "at_tau")}
+    _write(options, case, found, asked)
+    rows = tables.rows(found, assessments.MARCH)
+    if options.at_tau is not None:
+        rows += tables.rows(found, assessments.STRESS_AT)
+    if options.json:
+        return documents.as_json(
+            case.echoed() | asked,
+            rows,
+            breakdown_kind=found.kind,
+            breakdown_error=found.breakdown and found.breakdown.error,
+            breakdown_x=found.breakdown_x,
+            tilted=found.result.base.tilted,
+            end_tau=found.end,
+            residual=found.residual,
+            error_estimate=found.error_estimate,
+            notes=[*options.doubts, *found.notes],
+        )
+    cells = text.number_cells(rows)
+    if found.breakdown_x is not None:
+        cells.insert(1, ("where that is: theta", f"{found.breakdown_x:.3f} theta_w"))
+    cells += [
+        ("marched down to tau", f"{found.end:.6g}"),
+        ("error of log(sigma) and psi", f"{found.error_estimate:.0e}"),
+        ("residual of the momentum balance", f"{found.residual:.0e} rho g"),
+    ]
+    return documents.as_text(
+        f"Stress march: {case}, top {top.name}",
+        cells,
+        [*found.notes, sentences.march_sentence(found, options.depth)],
+    )
 
 
 def _neutral(options: Namespace) -> str:
@@ -211,7 +241,7 @@ def _neutral(options: Namespace) -> str:
     inputs = given | asdict(wall)
     if options.json:
         first = found.points[0] if found.points else None
-        return _json(
+        return documents.as_json(
             inputs,
             rows,
             neutral_points=[_point(point) for point in found.points],
@@ -221,7 +251,7 @@ def _neutral(options: Namespace) -> str:
             error_estimate=first and rows[0].error,
             notes=options.doubts,
         )
-    return _text(
+    return documents.as_text(
         f"Neutral stability: {kind}, half angle {options.half_angle:g} deg, {wall}",
         text.neutral_cells(found),
         [sentences.neutral_sentence(geometry, found)],
@@ -264,39 +294,25 @@ def _case(options: Namespace) -> Case:
     return case
 
 
-def _explained(error: ConvergenceError, what: str, mu: Quantity | None) -> ConvergenceError:
-    """Return the error with the largest friction that has ``what``, where that is known."""
-    if mu is None:
-        return error
-    return type(error)(f"{error}; the largest friction with {what} is {Wall.of(mu.value)}")
+@contextmanager
+def _explained(case: Case) -> Iterator[None]:
+    """Add to an error the largest friction that has a radial solution, where that is known."""
+    try:
+        yield
+    except ConvergenceError as error:
+        mu = assess_limits(case.hopper).coefficient
+        if mu is None:
+            raise
+        largest = Wall.of(mu.value)
+        raise type(error)(
+            f"{error}; the largest friction with a radial solution is {largest}"
+        ) from None
 
 
-def _text(title: str, cells: Sequence[tuple[str, str]], sentences: Sequence[str]) -> str:
-    return "\n".join([title, "", text.table(cells), "", *sentences])
-
-
-def _json(inputs: dict[str, Any], rows: Sequence[Row], **more: Any) -> str:
-    rows = [*rows, *(row.in_degrees() for row in rows if row.variable.units == "radian")]
-    errors = {row.variable.name: row.error for row in rows if row.error is not None}
-    errors |= more.pop("errors", {})
-    numbers = {row.variable.name: row.value for row in rows}
-    document = {**inputs, **numbers, **more, "errors": errors}
-    return json.dumps(_finite(document), indent=2, allow_nan=False)
-
-
-def _finite(value: Any) -> Any:
-    """Return a JSON value with null for what is not finite: JSON has no NaN."""
-    if isinstance(value, dict):
-        return {key: _finite(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(item) for item in value]
-    return None if isinstance(value, float) and not isfinite(value) else value
-
-
-def _write(options: Namespace, case: Case, found: Part) -> None:
-    """Write the profile and the plot where they are asked for."""
+def _write(options: Namespace, case: Case, found: Part, more: dict[str, Any] | None = None) -> None:
+    """Write the profile and the plot where they are asked for; ``more`` is what else was given."""
     if options.profile:
-        _guarded("--profile", options.profile, lambda path: _write_profile(path, case, found))
+        _guarded("--profile", options.profile, lambda path: _write_profile(path, case, found, more))
     if options.plot:
         from hopper_cli import figures
 
@@ -310,11 +326,11 @@ def _guarded(option: str, path: Path, write: Callable[[Path], None]) -> None:
         raise UsageError(f"argument {option}: {path} cannot be written: {error}") from error
 
 
-def _write_profile(path: Path, case: Case, found: Part) -> None:
+def _write_profile(path: Path, case: Case, found: Part, more: dict[str, Any] | None) -> None:
     if path.suffix.lower() == ".nc":
         from hopper_data import results
 
-        results.write_part(path, case, found)
+        results.write_part(path, case, found, more)
         return
     result, table = assessments.arrays(found)
     columns = [part for variable in table for part in tables.parts(variable, variable.of(result))]
