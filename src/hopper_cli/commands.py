@@ -16,7 +16,7 @@ from hopper.assessment.limits import assess_limits, tangency_coefficient
 from hopper.assessment.march import assess_march
 from hopper.assessment.neutral import Interval, NeutralPoint, assess_neutral
 from hopper.assessment.radial import assess_radial
-from hopper.assessment.stability import assess_stability
+from hopper.assessment.stability import StabilityAssessment, assess_stability
 from hopper.errors import ConvergenceError, NoRadialSolutionError, WallFrictionError
 from hopper.problem import as_geometry
 from hopper.radial.solution import solve_radial
@@ -86,15 +86,7 @@ def _stability(options: Namespace) -> str:
     _write(options, case, found)
     rows = tables.rows(found, assessments.STABILITY)
     rows += tables.rows({"tangency": tangency_coefficient(case.hopper)}, assessments.TANGENCY)
-    shown = {
-        parity: (modes.eigenvalues[: options.modes], modes.errors[: options.modes])
-        for parity, modes in found.modes.items()
-    }
-    notes = [
-        f"only {values.size} low {parity} modes are resolved"
-        for parity, (values, _) in shown.items()
-        if values.size < options.modes
-    ]
+    shown, notes = _shown(found, options.modes)
     if options.json:
         return documents.as_json(
             case.echoed(),
@@ -118,6 +110,20 @@ def _stability(options: Namespace) -> str:
         cells + text.number_cells(rows),
         [*notes, sentences.stability_sentence(case.geometry, found)],
     )
+
+
+def _shown(found: StabilityAssessment, count: int) -> tuple[dict[Parity, _Pairs], list[str]]:
+    """Return the first low modes of each parity, and where there are fewer than ``count``."""
+    shown = {
+        parity: (modes.eigenvalues[:count], modes.errors[:count])
+        for parity, modes in found.modes.items()
+    }
+    notes = [
+        f"only {values.size} low {parity} modes are resolved"
+        for parity, (values, _) in shown.items()
+        if values.size < count
+    ]
+    return shown, notes
 
 
 def _coupled(options: Namespace, case: Case) -> str:
