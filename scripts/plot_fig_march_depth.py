@@ -20,7 +20,7 @@ def draw(artifact: str) -> Figure:
         _draw_top(axis, data.isel(top=index))
     for axis in axes[-min(3, len(axes)) :]:
         axis.set_xlabel(r"$r/r_\mathrm{top}$")
-    plotting.below(figure, _keys(), 3)
+    plotting.below(figure, _keys({str(kind) for kind in data.breakdown_kind.to_numpy().flat}), 3)
     return figure
 
 
@@ -39,20 +39,24 @@ def _draw_top(axis: Axes, data: xr.Dataset) -> None:
     axis.set_title(str(data.top.item()))
 
 
-def _keys() -> list[Line2D]:
+def _keys(kinds: set[str]) -> list[Line2D]:
+    """Return the keys of what there is."""
     return [
         plotting.key(name, linestyle="", **look)
         for name, look in (
             ("within 5 % for good", _LEVELS[0]),
             ("within 1 % for good", _LEVELS[1]),
-            ("characteristics cross", _ENDS["crossing"]),
-            ("characteristic tangent to an arc", _ENDS["tangency"]),
-            ("a kink breaks", _ENDS["kink"]),
-            ("march not trusted", _ENDS["not_trusted"]),
+            *((_WORDS[kind], look) for kind, look in _ENDS.items() if kind in kinds),
         )
     ]
 
 
+_WORDS = {
+    "crossing": "characteristics cross",
+    "tangency": "characteristic tangent to an arc",
+    "kink": "a kink breaks",
+    "not_trusted": "march not trusted",
+}
 _LEVELS: tuple[dict[str, Any], ...] = (
     {"marker": "o", "color": plotting.BLUE},
     {"marker": "o", "color": plotting.BLUE, "mfc": "white"},

@@ -20,5 +20,5 @@ def name_of_hopper(geometry: str, delta_deg: float, half_angle_deg: float, mu: f
 def name_of_top(name: str, eps: float | None = None, factor: float | None = None) -> str:
     """Return a top in a word."""
     if factor is not None:
-        return f"load x {factor:g}"
+        return f"load \u00d7 {factor:g}"
     return name if eps is None else f"{name} {eps:g}"
