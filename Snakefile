@@ -24,6 +24,7 @@ include: "workflow/rules/spectrum.smk"
 include: "workflow/rules/transient.smk"
 include: "workflow/rules/domain.smk"
 include: "workflow/rules/von_mises.smk"
+include: "workflow/rules/march.smk"
 include: "workflow/rules/cases.smk"
 include: "workflow/rules/claims.smk"
 

@@ -34,6 +34,7 @@ _FIGURES = (
     (r"results/flow_factor/jenike\.nc", "fig_jenike"),
     (r"results/smooth_wall\.nc", "fig_4_1"),
     (r"results/domain_angle\.nc", "fig_domain_angle"),
+    (r"results/march_\w+/(\w+)\.nc", r"\1"),
 )
 _NOTATION = (
     (r"sqrt\((\d+)\)", r"√\1"),

@@ -138,7 +138,12 @@ def dataclasses_of(package):
 def results():
     """One of each public dataclass, by its name, as it comes out of the numerics."""
     from hopper.assessment.coupled import describe_coupled
+    from hopper.assessment.march import assess_march
     from hopper.assessment.neutral import assess_neutral
+    from hopper.design.design import Demand, design
+    from hopper.design.flow_pattern import flow_pattern
+    from hopper.design.material import Material
+    from hopper.design.outlet import linear_flow_function
     from hopper.domain.borders import borders
     from hopper.domain.coupled import coupled_borders, sweep_coupled
     from hopper.domain.growth import Hoppers, root
@@ -149,6 +154,15 @@ def results():
     from hopper.evidence.printed import compare_linearised
     from hopper.evidence.sign_changes import sign_changes
     from hopper.evidence.smooth_operator import check_formula
+    from hopper.march.base import base_of, base_state, base_table
+    from hopper.march.crossing import Crossing, net_verdict
+    from hopper.march.equations import ray_slopes
+    from hopper.march.fields import stress_of
+    from hopper.march.lines import characteristics
+    from hopper.march.net import make_net
+    from hopper.march.optics import short_waves
+    from hopper.march.result import Breakdown
+    from hopper.march.tops import riemann_deviation, scaled
     from hopper.radial.branch import branch_up_to
     from hopper.radial.critical_point import CriticalPoint, LimitingSolution
     from hopper.radial.pieces import first_piece
@@ -181,6 +195,11 @@ def results():
     basis = modal_basis(solution, 64, "physical", np.concatenate([kept, kept.conj()]))
     form = hopper.schur_form(np.diag([-1.0, -2.0]))
     piece = first_piece(cone)
+    base = base_of(solution)
+    wedge = base_of(hopper.solve_radial(hopper.Hopper("wedge", radians(45), radians(10)), 0.0))
+    assessed = assess_march(wedge.solution, scaled(2.0), 0.01, 0.005)
+    marched = assessed.result
+    state, net = base_state(base, np.array([0.1])), make_net(base, True)
     soft = hopper.Hopper("cone", radians(35), radians(10), hopper.yield_condition("von-mises"))
     von_mises = hopper.solve_radial(soft, 0.1)
     hard = hopper.Hopper("cone", radians(40), radians(10), soft.material)
@@ -189,6 +208,9 @@ def results():
         hopper.Hopper("cone", radians(30), radians(10), soft.material), 0.1
     )
     effects = end_effects(elliptic)
+    steel_wall = Material("cone", radians(40), radians(16))
+    wanted = Demand(linear_flow_function(0.5, 0.3), 900.0)
+    found_design = design(steel_wall, radians(3), wanted)
     found = [
         cone, cone.material, solution, solution.member, solution.member.grid,
         solution.member.closure, hopper.friction_limit(cone), CriticalPoint(0.1, -1.0, 3.0),
@@ -210,7 +232,13 @@ def results():
         number("sigma_axis", "stress"), *rows(solution, [number("sigma_axis", "stress")]),
         branch_up_to(cone, 0.1), *stacked_starts([solution], ["symmetric"]),
         piece, piece.end, solution.member.grid.map, form.panels[0],
-        *sign_changes(np.cos, [1.0, 2.0], 0.1),
+        *sign_changes(np.cos, [1.0, 2.0], 0.1), base, state, state.at, base_table(base),
+        ray_slopes(state.at, np.tan(state.psi), state.light), stress_of(0.5, state.psi, state.psi),
+        assessed, assessed.at, marched, marched.top, marched.settled[0], marched.history,
+        marched.history.loop, marched.history.loop.mesh, net, short_waves(wedge),
+        net_verdict(net, lambda x: riemann_deviation(base, scaled(1.0), x), 0.01, 1e-5, False),
+        Crossing(0.1, 0.1, 1, 1e-6), Breakdown(0.1, 1e-6, 0.5, 0.9),
+        characteristics(wedge, scaled(1.0), 4, 0.01),
         found_design, found_design.half_angles, found_design.outlet, wanted, wanted.flow_function,
         steel_wall, flow_pattern(steel_wall, 0.2),
         describe_coupled(elliptic), judged, judged.type, judged.growth, judged.modes,
@@ -246,7 +274,7 @@ def test_angles_are_shown_in_degrees(results):
 WITH_DATASET = {
     "RadialSolution", "VelocityField", "LinearStability", "MeshSpectrum", "FilteredSpectrum",
     "Pseudospectrum", "Sweep", "NeutralCurve", "Borders", "Assessment", "RadialAssessment",
-    "StabilityAssessment", "CoupledStability",
+    "StabilityAssessment", "CoupledStability", "MarchAssessment",
 }  # fmt: skip
 
 

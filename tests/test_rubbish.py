@@ -21,17 +21,20 @@ from scipy.sparse import csr_array
 import hopper
 from hopper import Hopper, schur_form, solve_radial
 from hopper.arrays import Array, Complex, Mask, Numbers
-from hopper.design.half_angles import Material
+from hopper.design.material import Material
 from hopper.domain.growth import Hoppers
 from hopper.errors import HopperError, InvalidParameterError
 from hopper.radial.grid import half_grid
 from hopper.spectral.transient import ModalBasis, basis_of
 from hopper.values import complex_array, number_array
 
-# Modules of tools for writing functions, not for users.
+# Modules of tools for writing functions, not for users. What steps of a march take may be no
+# numbers: it is followed to where it ends.
 TOOLS = {
     "hopper.arguments", "hopper.brief", "hopper.errors", "hopper.radial.steps", "hopper.values",
     "hopper.spectral.sampling",
+    *(f"hopper.march.{name}" for name in (
+        "crossing", "equations", "fields", "loop", "mapped", "net", "rays", "settling")),
 }  # fmt: skip
 
 

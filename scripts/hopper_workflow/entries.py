@@ -22,7 +22,8 @@ _FIXED = (
     "fig_vm_decay",
     "fig_models_stability",
 )
-SECTIONS = ("radial", "spectra", "transient", "pseudospectrum", "friction_curves")
+MARCHES = ("march_breakdown", "march_decay", "march_amplitude", "march_depth")
+SECTIONS = ("radial", "spectra", "transient", "pseudospectrum", "friction_curves", *MARCHES)
 
 
 class Drawing(NamedTuple):
@@ -98,6 +99,17 @@ def problems(config: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
             if len(set(labels)) < len(labels):
                 problem = "two values are equal to six digits: their curves cannot be told apart"
                 yield f"{section}.{name}.{values}", problem
+
+
+def files_of_tops(entry: Mapping[str, Any]) -> list[str]:
+    """Return the files that hold tops of an entry of ``march_breakdown`` or ``march_depth``."""
+    tops = entry["tops"] if "tops" in entry else [entry["top"]]
+    return [top["name"] for top in tops if is_file_of_top(top["name"])]
+
+
+def is_file_of_top(name: str) -> bool:
+    """Return whether the name of a top is that of a file."""
+    return name.endswith((".csv", ".nc"))
 
 
 def _curves(transient: Mapping[str, Any]) -> int:

@@ -10,6 +10,8 @@ from hopper.errors import HopperError
 from hopper_workflow.artifacts import ArtifactError
 
 Progress = Callable[[int, int], None]
+# Inputs whose paths are not arguments: modules of code, and files that params name.
+BARE = ("code", "files")
 _FORMAT = "%(asctime)s %(levelname)-7s %(message)s"
 
 
@@ -26,8 +28,8 @@ class Job(Protocol):
 def run(function: Callable[..., None]) -> None:
     """Call a rule's function with the job's named inputs, outputs and params.
 
-    Snakemake puts its object into the script it runs. The input ``code``, there for Snakemake only,
-    is left out. A foreseen error ends in one line and exit code 1. The log of a job that is done is
+    Snakemake puts its object into the script it runs. Inputs that are there for Snakemake only are
+    left out. A foreseen error ends in one line and exit code 1. The log of a job that is done is
     sealed.
     """
     job = cast("Job", sys.modules["__main__"].__dict__["snakemake"])
@@ -39,8 +41,8 @@ def run(function: Callable[..., None]) -> None:
     logging.captureWarnings(True)
     for library in ("fontTools", "matplotlib"):
         logging.getLogger(library).setLevel(logging.WARNING)
-    arguments = {**job.input, **job.output, **job.params}
-    arguments.pop("code", None)
+    inputs = {name: value for name, value in job.input.items() if name not in BARE}
+    arguments = {**inputs, **job.output, **job.params}
     logging.info("%s: started", job.rule)
     try:
         function(**arguments)

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator, Mapping
 from math import atan, radians
+from pathlib import Path
 from typing import Any
 
 from hopper_workflow import entries
@@ -22,6 +23,8 @@ def violations(config: Mapping[str, Any]) -> Iterator[Violation]:
     yield from entries.problems(config)
     for key, case in _hoppers(config):
         yield from _wall(key, **case)
+    for key, geometry, top in _tops(config):
+        yield from _top(key, geometry, **top)
 
 
 def _sections(value: Any, key: str) -> Iterator[tuple[str, Mapping[str, Any]]]:
@@ -88,6 +91,8 @@ def _hoppers(config: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
                     yield f"radial.{name}", {**hopper, **at}
     for name, case in config["spectra"].items():
         yield f"spectra.{name}", case
+    for key, hopper in _marched(config):
+        yield key, dict(hopper)
     linear = config["claims"]["linear"]
     printed_at = {**config["spectra"][linear["spectrum"]], "mu": linear["printed_at"]["mu"]}
     yield "claims.linear.printed_at", printed_at
@@ -95,6 +100,40 @@ def _hoppers(config: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
         yield f"fig_vm_spectra.hoppers.{name}", {**case, "model": "von-mises"}
     for index, case in enumerate(config["cases"]):
         yield f"cases[{index}]", case
+
+
+def _marched(config: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """Yield the hoppers of marches, and their keys."""
+    for section in entries.MARCHES:
+        for name, entry in config[section].items():
+            if "hopper" in entry:
+                yield f"{section}.{name}.hopper", entry["hopper"]
+            for index, hopper in enumerate(entry.get("hoppers", [])):
+                yield f"{section}.{name}.hoppers[{index}]", hopper
+
+
+def _tops(config: Mapping[str, Any]) -> Iterator[tuple[str, str, Mapping[str, Any]]]:
+    """Yield the tops of marches that are given in full: key, a geometry, and the top."""
+    for name, entry in config["march_breakdown"].items():
+        yield f"march_breakdown.{name}.top", entry["hopper"]["geometry"], entry["top"]
+    for name, entry in config["march_depth"].items():
+        geometries = {hopper["geometry"] for hopper in entry["hoppers"]}
+        for index, top in enumerate(entry["tops"]):
+            yield f"march_depth.{name}.tops[{index}]", min(geometries), top
+
+
+def _top(key: str, geometry: str, name: str, **numbers: float) -> Iterator[Violation]:
+    """Check that a top has the number it needs and no other, and is symmetric in a cone."""
+    of_file = entries.is_file_of_top(name)
+    needed = {"scaled": {"factor"}, "linear": set(), "bin": set()}.get(name, {"eps"})
+    if of_file:
+        needed = set()
+    if set(numbers) != needed:
+        yield key, f"{name} needs {' and '.join(needed) or 'no number'} beside its name"
+    if name == "one-sided" and geometry == "cone":
+        yield key, "the top of a cone must be symmetric: use bump-s"
+    if of_file and not Path(name).is_file():
+        yield key, f"there is no file {name}: correct its path from the folder of the run"
 
 
 def _wall(

@@ -42,6 +42,8 @@ _MAKERS = {
     "SchurForm": "schur_form(matrix)",
     "Pseudospectrum": "pseudospectrum(form, real, imag)",
     "ModalBasis": "modal_basis(solution, ...)",
+    "Base": "base_of(solution)",
+    "Top": "scaled(factor)",
 }
 _LARGEST_COUNT = 2**31
 

@@ -45,6 +45,17 @@ class SingularVelocityError(HopperError):
         self.theta = theta
 
 
+class TangencyError(HopperError):
+    """A stress is beyond the tangency of a characteristic with the line on which it is given.
+
+    No smooth march starts there; ``theta`` (radians) is where it is furthest beyond.
+    """
+
+    def __init__(self, message: str, theta: float) -> None:
+        super().__init__(message)
+        self.theta = theta
+
+
 class ConvergenceError(HopperError):
     """An iteration did not reach an acceptable error; the message names the achieved one."""
 

@@ -1,10 +1,10 @@
 """What the subcommands answer, as text or JSON; files and plots on the way."""
 
 from argparse import Namespace
-from collections.abc import Callable
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import asdict
 from math import degrees, radians
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,22 +12,19 @@ import numpy as np
 from hopper.arrays import Array, Complex
 from hopper.assessment.coupled import CoupledStability, assess_coupled, assess_coupled_neutral
 from hopper.assessment.limits import assess_limits, tangency_coefficient
+from hopper.assessment.march import assess_march
 from hopper.assessment.neutral import Interval, NeutralPoint, assess_neutral
 from hopper.assessment.radial import assess_radial
 from hopper.assessment.stability import StabilityAssessment, assess_stability
-from hopper.design.flow_pattern import flow_pattern
-from hopper.design.half_angles import Material
 from hopper.errors import ConvergenceError, NoRadialSolutionError, WallFrictionError
 from hopper.problem import as_geometry
-from hopper.quantity import Quantity
 from hopper.radial.solution import solve_radial
 from hopper.stability.collocation import Parity
-from hopper_cli import documents, sentences, text
+from hopper_cli import designs, documents, progress, sentences, text, written
 from hopper_cli.errors import UsageError
-from hopper_cli.outputs import write_csv
 from hopper_data import assessments, tables
-from hopper_data.assessments import Part
 from hopper_data.inputs import Case, Wall
+from hopper_data.tops import top_of
 
 _NO_TRANSIENT = (
     "no transient growth: the collocation matrix grows in ways that the equations do not"
@@ -45,22 +42,21 @@ def answer(options: Namespace) -> str:
     HopperError
         If there is no answer; the message says up to which friction there is one.
     """
-    if options.command == "design":
-        from hopper_cli import designs
-
-        return designs.answer(options)
-    commands = {"radial": _radial, "stability": _stability, "neutral": _neutral}
+    commands = {
+        "radial": _radial,
+        "stability": _stability,
+        "neutral": _neutral,
+        "march": _march,
+        "design": designs.answer,
+    }
     return commands[options.command](options)
 
 
 def _radial(options: Namespace) -> str:
     case = _case(options)
-    try:
+    with _explained(case):
         found = assess_radial(case.hopper, case.wall.friction_angle)
-    except ConvergenceError as error:
-        limit = assess_limits(case.hopper).coefficient
-        raise _explained(error, "a radial solution", limit) from None
-    _write(options, case, found)
+    written.write(options, case, found)
     rows = tables.rows(found, assessments.RADIAL)
     limits = tables.rows(found.limits, assessments.LIMITS)
     end = found.limits.friction and found.limits.friction.end
@@ -71,14 +67,14 @@ def _radial(options: Namespace) -> str:
         return documents.as_json(
             case.echoed(),
             rows + limits,
-            sentence=_mass_flow(case),
+            sentence=designs.mass_flow(case),
             limit_end=end,
             error_estimate=max(row.relative_error for row in main),
             notes=[*options.doubts, *found.notes],
         )
     shown = [row for row in limits if row.variable.name != "mu_limit" or end != "fold"]
     return documents.as_text(
-        _mass_flow(case),
+        designs.mass_flow(case),
         text.number_cells(rows + shown),
         [f"Radial solution: {case}", *found.notes, sentences.radial_sentence(found)],
     )
@@ -88,24 +84,18 @@ def _stability(options: Namespace) -> str:
     case = _case(options)
     if case.model == "von-mises":
         return _coupled(options, case)
-    found = _assessed_stability(case, options)
-    _write(options, case, found)
+    with _explained(case):
+        solution = solve_radial(case.hopper, case.wall.friction_angle)
+        found = assess_stability(solution, options.disturbances, options.modes)
+    written.write(options, case, found)
     rows = tables.rows(found, assessments.STABILITY)
     rows += tables.rows({"tangency": tangency_coefficient(case.hopper)}, assessments.TANGENCY)
-    shown = {
-        parity: (modes.eigenvalues[: options.modes], modes.errors[: options.modes])
-        for parity, modes in found.modes.items()
-    }
-    notes = [
-        f"only {values.size} low {parity} modes are resolved"
-        for parity, (values, _) in shown.items()
-        if values.size < options.modes
-    ]
+    shown, notes = _shown(found, options.modes)
     if options.json:
         return documents.as_json(
             case.echoed(),
             rows,
-            sentence=_mass_flow(case),
+            sentence=designs.mass_flow(case),
             **{key: _pairs(shown.get(parity)) for parity, key in _JSON.items()},
             governed_by=found.result.governed_by,
             parity=found.result.parity,
@@ -121,10 +111,24 @@ def _stability(options: Namespace) -> str:
         for number, (value, error) in enumerate(zip(*pairs, strict=True), start=1)
     ]
     return documents.as_text(
-        _mass_flow(case),
+        designs.mass_flow(case),
         cells + text.number_cells(rows),
         [f"Linear stability: {case}", *notes, sentences.stability_sentence(case.geometry, found)],
     )
+
+
+def _shown(found: StabilityAssessment, count: int) -> tuple[dict[Parity, _Pairs], list[str]]:
+    """Return the first low modes of each parity, and where there are fewer than ``count``."""
+    shown = {
+        parity: (modes.eigenvalues[:count], modes.errors[:count])
+        for parity, modes in found.modes.items()
+    }
+    notes = [
+        f"only {values.size} low {parity} modes are resolved"
+        for parity, (values, _) in shown.items()
+        if values.size < count
+    ]
+    return shown, notes
 
 
 def _coupled(options: Namespace, case: Case) -> str:
@@ -134,7 +138,7 @@ def _coupled(options: Namespace, case: Case) -> str:
         raise NoRadialSolutionError(found.judged.reason, found.judged.border or None)
     if found.modes is None and (options.profile or options.plot):
         raise ConvergenceError(f"there are no modes to write: {found.judged.reason}")
-    _write(options, case, found)
+    written.write(options, case, found)
     modes: _Pairs = np.empty(0, complex), np.empty(0)
     notes: list[str] = []
     if found.modes is not None:
@@ -153,7 +157,7 @@ def _coupled(options: Namespace, case: Case) -> str:
             low, high = (text.rounded(edge, growth.strips.error_estimate) for edge in edges)
             cells.append(("strip of high frequency", f"{low} to {high}"))
     return documents.as_text(
-        _mass_flow(case),
+        designs.mass_flow(case),
         cells + text.number_cells(tables.rows(found, assessments.COUPLED)),
         [f"Linear stability: {case}", *notes, sentences.coupled_sentence(found)],
     )
@@ -166,7 +170,7 @@ def _coupled_json(case: Case, found: CoupledStability, modes: _Pairs, notes: lis
     return documents.as_json(
         case.echoed(),
         [*null, *rows],
-        sentence=_mass_flow(case),
+        sentence=designs.mass_flow(case),
         type=found.type,
         verdict=found.verdict,
         reason=found.judged.reason,
@@ -189,20 +193,51 @@ def _coupled_json(case: Case, found: CoupledStability, modes: _Pairs, notes: lis
     )
 
 
-def _assessed_stability(case: Case, options: Namespace) -> StabilityAssessment:
-    try:
-        solution = solve_radial(case.hopper, case.wall.friction_angle)
-        return assess_stability(solution, options.disturbances, options.modes)
-    except ConvergenceError as error:
-        limit = assess_limits(case.hopper).coefficient
-        raise _explained(error, "a radial solution", limit) from None
-
-
 _JSON: dict[Parity, str] = {"symmetric": "eigenvalues", "asymmetric": "asymmetric_eigenvalues"}
 
 
 def _pairs(modes: _Pairs | None) -> list[list[float]] | None:
     return modes and [[mode.real, mode.imag] for mode in modes[0].tolist()]
+
+
+def _march(options: Namespace) -> str:
+    case = _case(options)
+    top = top_of(options.top, options.eps, options.factor)
+    with _explained(case):
+        solution = solve_radial(case.hopper, case.wall.friction_angle)
+    with progress.on_terminal() as report:
+        found = assess_march(solution, top, options.depth, options.at_tau, report)
+    asked = {key: getattr(options, key) for key in ("top", "eps", "factor", "depth", "at_tau")}
+    written.write(options, case, found, asked)
+    rows = tables.rows(found, assessments.MARCH)
+    if options.at_tau is not None:
+        rows += tables.rows(found, assessments.STRESS_AT)
+    if options.json:
+        return documents.as_json(
+            case.echoed() | asked,
+            rows,
+            breakdown_kind=found.kind,
+            breakdown_error=found.breakdown and found.breakdown.error,
+            breakdown_x=found.breakdown_x,
+            tilted=found.result.base.tilted,
+            end_tau=found.end,
+            residual=found.residual,
+            error_estimate=found.error_estimate,
+            notes=[*options.doubts, *found.notes],
+        )
+    cells = text.number_cells(rows)
+    if found.breakdown_x is not None:
+        cells.insert(1, ("where that is: theta", f"{found.breakdown_x:.3f} theta_w"))
+    cells += [
+        ("marched down to tau", f"{found.end:.6g}"),
+        ("error of log(sigma) and psi", f"{found.error_estimate:.0e}"),
+        ("residual of the momentum balance", f"{found.residual:.0e} rho g"),
+    ]
+    return documents.as_text(
+        f"Stress march: {case}, top {top.name}",
+        cells,
+        [*found.notes, sentences.march_sentence(found, options.depth)],
+    )
 
 
 def _neutral(options: Namespace) -> str:
@@ -271,48 +306,16 @@ def _case(options: Namespace) -> Case:
     return case
 
 
-def _mass_flow(case: Case) -> str:
-    """Return whether there is mass flow, in a sentence; the same in every answer about a hopper."""
-    hopper = case.hopper
-    material = Material(hopper.geometry, hopper.delta, case.wall.friction_angle, hopper.material)
+@contextmanager
+def _explained(case: Case) -> Iterator[None]:
+    """Add to an error the largest friction that has a radial solution, where that is known."""
     try:
-        return sentences.mass_flow_sentence(flow_pattern(material, hopper.half_angle))
+        yield
     except ConvergenceError as error:
-        return f"Mass flow: not known, {error}."
-
-
-def _explained(error: ConvergenceError, what: str, mu: Quantity | None) -> ConvergenceError:
-    """Return the error with the largest friction that has ``what``, where that is known."""
-    if mu is None:
-        return error
-    return type(error)(f"{error}; the largest friction with {what} is {Wall.of(mu.value)}")
-
-
-def _write(options: Namespace, case: Case, found: Part) -> None:
-    """Write the profile and the plot where they are asked for."""
-    if options.profile:
-        _guarded("--profile", options.profile, lambda path: _write_profile(path, case, found))
-    if options.plot:
-        from hopper_cli import figures
-
-        _guarded("--plot", options.plot, lambda path: figures.write(path, case, found))
-
-
-def _guarded(option: str, path: Path, write: Callable[[Path], None]) -> None:
-    try:
-        write(path)
-    except (OSError, RuntimeError) as error:  # netCDF4 raises the latter where the disk is full
-        raise UsageError(f"argument {option}: {path} cannot be written: {error}") from error
-
-
-def _write_profile(path: Path, case: Case, found: Part) -> None:
-    if path.suffix.lower() == ".nc":
-        from hopper_data import results
-
-        results.write_part(path, case, found)
-        return
-    result, table = assessments.arrays(found)
-    columns = [part for variable in table for part in tables.parts(variable, variable.of(result))]
-    known = [(variable, values) for variable, values in columns if values is not None]
-    header = [f"{variable.name} [{variable.scale or variable.units}]" for variable, _ in known]
-    write_csv(path, header, zip(*(values.tolist() for _, values in known), strict=True))
+        mu = assess_limits(case.hopper).coefficient
+        if mu is None:
+            raise
+        largest = Wall.of(mu.value)
+        raise type(error)(
+            f"{error}; the largest friction with a radial solution is {largest}"
+        ) from None

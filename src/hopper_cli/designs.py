@@ -4,16 +4,17 @@ from argparse import Namespace
 from math import radians
 
 from hopper.design.design import Demand, design
-from hopper.design.half_angles import Material
+from hopper.design.flow_pattern import flow_pattern
+from hopper.design.material import Material
 from hopper.design.outlet import linear_flow_function
-from hopper.errors import InvalidParameterError
+from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.problem import as_geometry
 from hopper.yield_conditions import yield_condition
 from hopper_cli import documents, sentences, text
 from hopper_cli.errors import UsageError
 from hopper_data import assessments, tables
 from hopper_data.flow_functions import read_flow_function
-from hopper_data.inputs import Wall
+from hopper_data.inputs import Case, Wall
 
 
 def answer(options: Namespace) -> str:
@@ -62,6 +63,16 @@ def answer(options: Namespace) -> str:
         text.number_cells(rows),
         [f"Design: {title}, margin {options.margin:g} deg", *found.notes],
     )
+
+
+def mass_flow(case: Case) -> str:
+    """Return whether there is mass flow, in a sentence; the same in every answer about a hopper."""
+    hopper = case.hopper
+    material = Material(hopper.geometry, hopper.delta, case.wall.friction_angle, hopper.material)
+    try:
+        return sentences.mass_flow_sentence(flow_pattern(material, hopper.half_angle))
+    except ConvergenceError as error:
+        return f"Mass flow: not known, {error}."
 
 
 def _demand(options: Namespace) -> Demand | None:

@@ -61,6 +61,37 @@ def draw_fields(axes: Sequence[Axes], delta_deg: float, fields: Mapping[str, Arr
         axis.set_ylabel(r"velocity $u(\vartheta)/u(0)$")
 
 
+def draw_depth_plane(axis: Axes, march: Mapping[str, Array], end: tuple[float, float]) -> Any:
+    """Draw psi over angle and depth; return what a colour bar of it needs.
+
+    ``march`` holds tau, theta (degrees) and psi (radians, over both); ``end`` is the place of a
+    breakdown, (theta, tau), NaN without one.
+    """
+    drawn = axis.pcolormesh(
+        march["theta"], march["tau"], np.degrees(march["psi"]), cmap="cividis", shading="gouraud"
+    )
+    mark_breakdown(axis, end, max(march["tau"][-1], np.nan_to_num(end[1])))
+    return drawn
+
+
+def mark_breakdown(axis: Axes, end: tuple[float, float], deepest: float) -> None:
+    """Label axes of angle and depth, and mark the place of a breakdown, (theta, tau)."""
+    axis.plot(*end, "x", color="C1", markersize=7, markeredgewidth=1.6, clip_on=False)
+    axis.set_xlabel(r"angle $\vartheta$ (degrees)")
+    axis.set_ylabel(r"depth $\tau = \log(r_\mathrm{top}/r)$")
+    axis.set_ylim(deepest, 0)
+
+
+def draw_distance(axis: Axes, march: Mapping[str, Array]) -> None:
+    """Draw the distance from the radial field, in per cent, over the depth on the other axis."""
+    axis.plot(100 * march["distance"], march["tau"], color="C0")
+    axis.set_xscale("log")
+    for level in (5, 1):
+        axis.axvline(level, color="0.4", linewidth=0.8, linestyle="--")
+        axis.annotate(f"{level} %", (level, 0), (2, 3), **_SMALL)
+    axis.set_xlabel(r"distance from the radial field (% of $\sigma$)")
+
+
 def draw_spectrum(axis: Axes, upper: NDArray[np.complex128], line: float) -> None:
     """Draw modes, given by those with Im >= 0, and the asymptotic line."""
     _draw_modes(axis, upper)

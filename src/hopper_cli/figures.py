@@ -5,10 +5,12 @@ from pathlib import Path
 
 os.environ["MPLBACKEND"] = "Agg"  # with one that it does not know Matplotlib does not load
 
+import numpy as np
 from matplotlib import style
 from matplotlib.figure import Figure
 
 from hopper.assessment.coupled import CoupledStability
+from hopper.assessment.march import MarchAssessment
 from hopper.assessment.radial import RadialAssessment
 from hopper.assessment.stability import StabilityAssessment
 from hopper_cli import drawing
@@ -26,12 +28,14 @@ _METADATA: dict[str, dict[str, None]] = {
 
 
 def write(path: Path, case: Case, found: Part) -> None:
-    """Plot the fields, or the spectrum, in the style of the paper, with the verdict."""
+    """Plot the fields, the spectrum, or the march, in the style of the paper, with the verdict."""
     with style.context(["default", drawing.STYLE]):
         if isinstance(found, RadialAssessment):
             figure, verdict = _fields(case, found), "radial solution"
             if found.velocity is None:
                 verdict += r", velocity not known: $\psi$ reaches or nearly reaches $\pi/4$"
+        elif isinstance(found, MarchAssessment):
+            figure, verdict = _march(case, found), _VERDICTS[found.kind]
         else:
             figure, verdict = Figure(figsize=(7.1, 4.0)), found.verdict.replace("_", " ")
             _spectrum(figure, found)
@@ -66,4 +70,27 @@ def _fields(case: Case, found: RadialAssessment) -> Figure:
     }
     figure = Figure(figsize=(7.1, 2.6))
     drawing.draw_fields(figure.subplots(1, 3 if "u" in fields else 2), case.delta_deg, fields)
+    return figure
+
+
+_VERDICTS = {
+    "crossing": "characteristics cross (x)",
+    "tangency": "a characteristic is tangent to the top's surfaces (x)",
+    "kink": "a kink breaks",
+    None: "no breakdown",
+}
+
+
+def _march(case: Case, found: MarchAssessment) -> Figure:
+    figure = Figure(figsize=(7.1, 3.4))
+    axes = figure.subplots(1, 2, sharey=True)
+    march = found.profiles()
+    march["theta"] = np.degrees(march["theta"])
+    end = (np.nan, np.nan)
+    if found.result.breakdown is not None:
+        breakdown = found.result.breakdown
+        end = breakdown.position * case.half_angle_deg, breakdown.tau
+    drawn = drawing.draw_depth_plane(axes[0], march, end)
+    drawing.draw_distance(axes[1], march)
+    figure.colorbar(drawn, ax=axes[0], label=r"$\psi$ (degrees)")
     return figure

@@ -7,19 +7,17 @@ import argparse
 import json
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from importlib.util import find_spec
-from math import isfinite
 from pathlib import Path
 from typing import NoReturn
 
 import hopper
 from hopper.errors import HopperError, InvalidParameterError
-from hopper_cli import design_options, hints
+from hopper_cli import design_options, hints, march_options, values
 from hopper_cli.errors import UsageError
 from hopper_cli.outputs import FileError, checked
 
-_FEWEST_MODES, _MOST_MODES = 1, 40
 _NO_ANSWER, _USAGE, _INTERRUPTED, _BROKEN_PIPE = 1, 2, 130, 141
 
 EXAMPLES = {
@@ -27,6 +25,8 @@ EXAMPLES = {
     "stability": "hopper stability --geometry cone --delta 40 --half-angle 20 --mu 0.3",
     "neutral": "hopper neutral --geometry cone --half-angle 10 --phi 10",
     "design": "hopper design --geometry cone --delta 40 --phi 16",
+    "march": "hopper march --geometry wedge --delta 45 --half-angle 15 --mu 0.2 --top bump-s "
+    "--eps 0.2 --depth 1",
 }
 # The extra of the distribution and its libraries that a file of this suffix needs.
 _LIBRARIES = {".csv": ("", list[str]()), ".nc": ("data", ["xarray", "netCDF4"])}
@@ -106,16 +106,17 @@ def _parser() -> argparse.ArgumentParser:
     stability = _command(
         commands, "stability", "linear stability: low eigenvalues, high frequencies, verdict"
     )
-    for command, profile in ((radial, "fields over the polar angle"), (stability, "eigenvalues")):
+    march = _command(
+        commands, "march", "the stress marched down a hopper from its top, up to a breakdown"
+    )
+    for command, profile in (
+        (radial, "fields over the polar angle"),
+        (stability, "eigenvalues"),
+        (march, "fields over depth and polar angle"),
+    ):
         _add_hopper(command)
         _add_files(command, profile)
-    stability.add_argument(
-        "--modes",
-        type=_count,
-        default=6,
-        metavar="N",
-        help="low modes of each parity wanted, default %(default)s",
-    )
+    march_options.add(march)
     neutral = _command(
         commands, "neutral", "the internal frictions at which stability changes, and what is stable"
     )
@@ -127,14 +128,25 @@ def _parser() -> argparse.ArgumentParser:
     _add_material(design)
     _add_wall(design)
     design_options.add(design)
-    for command in (stability, neutral, design):
+    _add_modes(stability, neutral, design)
+    return parser
+
+
+def _add_modes(stability: argparse.ArgumentParser, *others: argparse.ArgumentParser) -> None:
+    stability.add_argument(
+        "--modes",
+        type=values.count,
+        default=6,
+        metavar="N",
+        help="low modes of each parity wanted, default %(default)s",
+    )
+    for command in (stability, *others):
         command.add_argument(
             "--disturbances",
             choices=["symmetric", "any"],
             help="default: any for wedges; of cones only symmetric ones are known, which are "
             "axisymmetric and without swirl",
         )
-    return parser
 
 
 def _add_hopper(command: argparse.ArgumentParser) -> None:
@@ -145,7 +157,11 @@ def _add_hopper(command: argparse.ArgumentParser) -> None:
 def _add_material(command: argparse.ArgumentParser) -> None:
     _add_geometry_and_model(command)
     command.add_argument(
-        "--delta", type=_angle, required=True, metavar="DEG", help="angle of internal friction"
+        "--delta",
+        type=values.angle,
+        required=True,
+        metavar="DEG",
+        help="angle of internal friction",
     )
 
 
@@ -191,7 +207,7 @@ def _add_geometry_and_model(command: argparse.ArgumentParser) -> None:
 def _add_half_angle_and_wall(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--half-angle",
-        type=_angle,
+        type=values.angle,
         required=True,
         metavar="DEG",
         help="half opening angle, from the vertical",
@@ -201,37 +217,8 @@ def _add_half_angle_and_wall(command: argparse.ArgumentParser) -> None:
 
 def _add_wall(command: argparse.ArgumentParser) -> None:
     wall = command.add_mutually_exclusive_group(required=True)
-    wall.add_argument("--mu", type=_coefficient, help="coefficient of wall friction, tan(phi)")
-    wall.add_argument("--phi", type=_wall_angle, metavar="DEG", help="angle of wall friction")
-
-
-def _number(text: str, meaning: str, inside: Callable[[float], bool]) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number: give {meaning}") from None
-    if not (isfinite(value) and inside(value)):
-        raise argparse.ArgumentTypeError(f"{text} is out of range: give {meaning}")
-    return value
-
-
-def _angle(text: str) -> float:
-    return _number(text, "degrees between 0 and 90, both excluded", lambda value: 0 < value < 90)
-
-
-def _wall_angle(text: str) -> float:
-    return _number(text, "degrees from 0 to below 90", lambda value: 0 <= value < 90)
-
-
-def _coefficient(text: str) -> float:
-    return _number(text, "a number from 0 to 1000", lambda value: 0 <= value <= 1000)
-
-
-def _count(text: str) -> int:
-    meaning = f"a whole number from {_FEWEST_MODES} to {_MOST_MODES}"
-    return int(
-        _number(text, meaning, lambda n: _FEWEST_MODES <= n <= _MOST_MODES and n.is_integer())
-    )
+    wall.add_argument("--mu", type=values.coefficient, help="coefficient of friction, tan(phi)")
+    wall.add_argument("--phi", type=values.wall_angle, metavar="DEG", help="angle of wall friction")
 
 
 def _check(options: argparse.Namespace) -> None:
@@ -247,6 +234,10 @@ def _check(options: argparse.Namespace) -> None:
             "argument --disturbances: asymmetric disturbances are singular at the apex of a cone: "
             "use symmetric or --geometry wedge"
         )
+    if options.command == "march":
+        march_options.check(options)
+        if Path(options.top).suffix.lower() == ".nc":
+            _require_libraries("--top", ".nc")
     if options.model == "von-mises" and options.geometry == "wedge":
         raise UsageError(
             "argument --model: von-mises is formulated for cones only: use --geometry cone or "
@@ -256,6 +247,11 @@ def _check(options: argparse.Namespace) -> None:
         design_options.check(options)
     if options.command in ("neutral", "design"):
         return
+    if options.model == "von-mises" and options.command == "march":
+        raise UsageError(
+            "argument --model: the stress march is formulated for mohr-coulomb only: use --model "
+            "mohr-coulomb"
+        )
     for option, path, suffixes in (
         ("--profile", options.profile, (".csv", ".nc")),
         ("--plot", options.plot, (".png", ".pdf", ".svg")),
@@ -266,13 +262,16 @@ def _check(options: argparse.Namespace) -> None:
             checked(path, suffixes, overwrite=options.force)
         except FileError as error:
             raise UsageError(f"argument {option}: {error}") from None
-        extra, libraries = _LIBRARIES.get(path.suffix.lower(), ("plot", ["matplotlib"]))
-        for library in libraries:
-            if find_spec(library) is None:
-                raise UsageError(
-                    f"argument {option}: {path.suffix} needs {library}: install "
-                    f"granular-hopper[{extra}]"
-                )
+        _require_libraries(option, path.suffix.lower())
+
+
+def _require_libraries(option: str, suffix: str) -> None:
+    extra, libraries = _LIBRARIES.get(suffix, ("plot", ["matplotlib"]))
+    for library in libraries:
+        if find_spec(library) is None:
+            raise UsageError(
+                f"argument {option}: {suffix} needs {library}: install granular-hopper[{extra}]"
+            )
 
 
 if __name__ == "__main__":

@@ -1,8 +1,9 @@
 """Answers in words."""
 
-from math import degrees
+from math import degrees, exp
 
 from hopper.assessment.coupled import CoupledStability
+from hopper.assessment.march import MarchAssessment
 from hopper.assessment.neutral import NeutralAssessment
 from hopper.assessment.radial import RadialAssessment
 from hopper.assessment.stability import StabilityAssessment
@@ -123,3 +124,28 @@ def neutral_sentence(geometry: str, found: NeutralAssessment) -> str:
         for one in found.intervals
     ]
     return f"Stable{to} where delta is from {' and from '.join(intervals)}."
+
+
+def march_sentence(found: MarchAssessment, depth: float) -> str:
+    """Return how the march ends, and from where on the stress is radial."""
+    reached = [
+        f"within {percent} % of the radial field from r = {radius.value:.3g} r_top on"
+        for percent, radius in ((5, found.settled_5_percent), (1, found.settled_1_percent))
+        if radius is not None
+    ]
+    near = f"The stress is {' and '.join(reached)}" if reached else ""
+    if found.kind is None and found.end < depth:
+        end = f"The march is not resolved below tau = {found.end:.6g}."
+    elif found.kind is None:
+        bottom = f"tau = {depth:g} (r = {exp(-depth):.3g} r_top)"
+        end = f"No breakdown down to {bottom}."
+        near = near or "It is not known to be within 5 % of the radial field for good"
+    elif found.kind == "kink":
+        end = f"A kink of the stress breaks at a place that is not known, by tau = {found.end:.3g}."
+    elif found.breakdown_radius is not None:
+        what = "Characteristics cross" if found.kind == "crossing" else "A characteristic turns"
+        end = (
+            f"{what} at r = {found.breakdown_radius.value:.4g} r_top: the stress is smooth down to "
+            "there only, a discontinuity is to be expected below."
+        )
+    return f"{end} {near}." if near else end

@@ -2,16 +2,20 @@
 
 from typing import Any, get_args
 
+import numpy as np
+
 from hopper.assessment.coupled import CoupledStability
+from hopper.assessment.march import MarchAssessment
 from hopper.assessment.radial import RadialAssessment
 from hopper.assessment.stability import StabilityAssessment
 from hopper.assessment.summary import OUTCOMES, Assessment
+from hopper.march.result import Kind
 from hopper.radial.friction_limit import End
 from hopper_data.radial import STRESS, THETA, angles
 from hopper_data.stability import COUPLED_FLAGS, GOVERNED_BY, PARITY, eigenvalues
 from hopper_data.tables import Table, angle, flag, number, within
 
-Part = RadialAssessment | StabilityAssessment | CoupledStability
+Part = RadialAssessment | StabilityAssessment | CoupledStability | MarchAssessment
 
 RADIAL: Table = (
     number("sigma_axis", "average stress on the axis", scale="rho g r"),
@@ -91,6 +95,37 @@ DESIGN: Table = (
     number("critical_stress_kpa", "critical stress", source="outlet.stress", units="kPa"),
     number("outlet_m", "smallest outlet", source="outlet.width", units="m"),
 )
+MARCH: Table = (
+    number("breakdown_tau", "first crossing: tau = log(r_top / r)", source="breakdown"),
+    number("tangency_tau", "tangency before a crossing: tau", source="tangency"),
+    number("breakdown_radius", "where that is: r", scale="r_top"),
+    number("settled_5_percent", "within 5 % of the radial field from this r on", scale="r_top"),
+    number("settled_1_percent", "within 1 % of the radial field from this r on", scale="r_top"),
+)
+STRESS_AT: Table = within(
+    "at",
+    (
+        number("sigma_axis", "average stress on the axis", scale="rho g r"),
+        number("sigma_half", "average stress at theta_w / 2", scale="rho g r"),
+        number("sigma_wall", "average stress at the right wall", scale="rho g r"),
+        number("psi_half", "psi at theta_w / 2", units="radian"),
+    ),
+)
+MARCH_FIELDS: Table = (
+    number("tau", "log(r_top / r)", "tau"),
+    angle("theta", "polar angle", "theta"),
+    number("sigma", "average stress", "tau theta", scale="rho g r"),
+    number("psi", "Sokolovskii angle", "tau theta", units="radian"),
+    number("distance", "largest difference from the radial stress", "tau", scale="sigma"),
+)
+MARCH_WHOLE: Table = (
+    *within("profiles", MARCH_FIELDS),
+    *within("march", MARCH),
+    flag("breakdown_kind", "how the march ends", get_args(Kind), source="march.kind"),
+    number("breakdown_x", "polar angle of that", source="march.breakdown_x", scale="theta_w"),
+    number("residual", "momentum residual", source="march.residual", scale="rho g"),
+    number("error_estimate", "error of log(sigma) and psi", source="march.error_estimate"),
+)
 # The governor's names are those of the result within.
 STABILITY_WHOLE: Table = (
     *SPECTRUM,
@@ -134,6 +169,11 @@ def arrays(found: Part) -> tuple[Any, Table]:
     """Return the arrays of a part of an assessment and the table that describes them."""
     if isinstance(found, RadialAssessment):
         return profiles(found), PROFILES
+    if isinstance(found, MarchAssessment):
+        fields = found.profiles()
+        tau, theta = np.meshgrid(fields["tau"], fields["theta"], indexing="ij")
+        rows = {"tau": tau, "theta": theta, "sigma": fields["sigma"], "psi": fields["psi"]}
+        return {name: values.ravel() for name, values in rows.items()}, MARCH_FIELDS[:-1]
     return found, COUPLED_MODES if isinstance(found, CoupledStability) else SPECTRUM
 
 
@@ -148,6 +188,8 @@ def described(found: Part | Assessment) -> tuple[Any, Table]:
         return found, STABILITY_WHOLE
     if isinstance(found, CoupledStability):
         return found, COUPLED_WHOLE
+    if isinstance(found, MarchAssessment):
+        return {"profiles": found.profiles(), "march": found}, MARCH_WHOLE
     return {**vars(found), "profiles": found.radial and profiles(found.radial)}, WHOLE
 
 

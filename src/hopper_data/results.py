@@ -1,12 +1,15 @@
 """Any result of the numerics as a dataset."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
 from hopper.assessment.coupled import CoupledStability
+from hopper.assessment.march import MarchAssessment
 from hopper.assessment.radial import RadialAssessment
+from hopper.assessment.stability import StabilityAssessment
 from hopper.assessment.summary import Assessment
 from hopper.domain.borders import Borders
 from hopper.domain.neutral_curve import NeutralCurve
@@ -75,20 +78,29 @@ def stored_form(result: Any) -> xr.Dataset:
     return dataset(result, table, coordinates)
 
 
-def write_part(path: Path, case: Case, found: assessments.Part) -> None:
-    """Write one part of an assessment as netCDF.
+def write_part(
+    path: Path, case: Case, found: assessments.Part, more: Mapping[str, Any] | None = None
+) -> None:
+    """Write one part of an assessment as netCDF; ``more`` are parameters beside those of the case.
 
     Raises
     ------
     OSError
         If the file cannot be written; no part of it stays.
     """
-    is_radial = isinstance(found, RadialAssessment)
-    linear = "(2.8)-(2.15), linearised" if isinstance(found, CoupledStability) else "(4.1), (4.2)"
+    title, equations = _TITLES[type(found)]
     cf.write(
         stored_form(found),
         path,
-        title=f"{'Radial solution' if is_radial else 'Linear stability'}: {case}",
-        equations="(2.8)-(2.15), (3.1)-(3.5)" if is_radial else linear,
-        parameters=case.echoed(),
+        title=f"{title}: {case}",
+        equations=equations,
+        parameters=case.echoed() | dict(more or {}),
     )
+
+
+_TITLES = {
+    RadialAssessment: ("Radial solution", "(2.8)-(2.15), (3.1)-(3.5)"),
+    StabilityAssessment: ("Linear stability", "(4.1), (4.2)"),
+    CoupledStability: ("Linear stability", "(2.8)-(2.15), linearised"),
+    MarchAssessment: ("Stress march", "(2.8)-(2.11), (3.1)"),
+}

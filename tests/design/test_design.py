@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from hopper.design.design import Demand, design
-from hopper.design.half_angles import Material, half_angles
+from hopper.design.half_angles import half_angles
+from hopper.design.material import Material
 from hopper.design.outlet import (
     critical_stress,
     flow_function,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hopper.design.flow_pattern import flow_pattern
-from hopper.design.half_angles import Material
+from hopper.design.material import Material
 from hopper.errors import ConvergenceError, HopperError
 from hopper.problem import Geometry, Hopper
 from hopper.radial.solution import solve_radial

@@ -35,6 +35,16 @@ COARSE: dict[str, Any] = {
     "pseudospectrum.fig_pseudospectrum.imag.points": 8,
     "sensitivity.frequencies.points": 11,
     "sensitivity.elapsed.points": 5,
+    "march_breakdown.fig_march_breakdown.depth": 0.05,
+    "march_decay.fig_march_decay.eps": [0.05],
+    "march_decay.fig_march_decay.depth": 0.1,
+    "march_amplitude.fig_march_breakdown_amplitude.eps": [0.5, 0.7],
+    "march_amplitude.fig_march_breakdown_amplitude.cells": 16,
+    "march_depth.fig_march_depth.hoppers": [
+        {"geometry": "cone", "delta_deg": 40, "half_angle_deg": 15, "mu": 0.1}
+    ],
+    "march_depth.fig_march_depth.tops": [{"name": "scaled", "factor": 0.8}, {"name": "bin"}],
+    "march_depth.fig_march_depth.depth": 1.0,
     "friction_curves.fig_4_4.mu.points": 8,
     "friction_curves.fig_4_4.check": CHECK,
     "friction_curves.fig_4_4_30.mu.points": 8,

@@ -327,6 +327,8 @@ CHANGES = {
     "exponent_of_von_mises": {("models", "exponent"): plus(1e-3)},
     "comparable_at_moderate_roughness": {("moderate", "sigma"): of_model(0, 3)},
     "different_at_large_roughness": {("rough", "u"): constant(0.5)},
+    "non_radial_solutions_break_down": {("marches", "breakdown_kind"): constant("none")},
+    "flow_is_approximately_radial": {("marches", "settled"): times(0.1)},
     "velocity_differs_most": {("rough", "sigma"): of_model(0, 0.001)},
     "stagnant_zone_of_mohr_coulomb": {("rough", "u"): plus(0.1)},
     "no_stagnant_zone_of_von_mises": {("rough", "u"): times(0.1)},

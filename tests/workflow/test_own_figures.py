@@ -22,6 +22,10 @@ FIGURES = (
     "fig_4_4_20",
     "fig_4_5",
     "fig_4_5_map",
+    "own_breakdown",
+    "own_decay",
+    "own_amplitudes",
+    "own_depth",
 )
 
 
@@ -111,6 +115,37 @@ def test_a_spectrum_that_is_not_there_is_named(config):
 def test_bounds_are_of_one_curve(config):
     config["transient"]["own_norms"]["kind"] = "bounds"
     refused(config, "'transient.own_norms.kind': bounds draws one curve")
+
+
+@pytest.mark.parametrize(
+    ("top", "words"),
+    [
+        ({"name": "bump-s"}, "bump-s needs eps beside its name"),
+        ({"name": "scaled", "eps": 0.1}, "scaled needs factor beside its name"),
+        ({"name": "bin", "factor": 2}, "bin needs no number beside its name"),
+        ({"name": "mine.csv", "eps": 0.1}, "mine.csv needs no number beside its name"),
+        ({"name": "flat"}, "top.name.: .flat. does not match"),
+        ({"name": "mine.csv"}, "top.: there is no file mine.csv: correct its path"),
+    ],
+)
+def test_a_top_has_the_number_it_needs(config, top, words):
+    config["march_breakdown"]["own_breakdown"]["top"] = top
+    refused(config, words)
+
+
+def test_the_top_of_a_cone_is_symmetric(config):
+    config["march_breakdown"]["own_breakdown"]["hopper"]["geometry"] = "cone"
+    refused(config, "own_breakdown.top.: the top of a cone must be symmetric: use bump-s")
+
+
+def test_jobs_read_the_files_of_tops(config, tmp_path):
+    file = tmp_path / "mine.nc"
+    file.touch()
+    entry = config["march_depth"]["own_depth"]
+    assert entries.files_of_tops(entry) == []
+    entry["tops"].append({"name": str(file)})
+    configuration.check(config, SCHEMA)
+    assert entries.files_of_tops(entry) == [str(file)]
 
 
 def test_older_words_are_understood(config):

@@ -67,6 +67,27 @@ def curve(key):
     return lambda wildcards: config["friction_curves"][wildcards.figure][key]
 
 
+def march(section, key):
+    """A parameter of a figure of marches."""
+    return lambda wildcards: config[section][wildcards.figure][key]
+
+
+def files_of_tops(section):
+    """The files that hold tops of a figure of marches."""
+    return lambda wildcards: entries.files_of_tops(config[section][wildcards.figure])
+
+
+def geometries(section):
+    """The geometries of a figure of marches, for its row in the report."""
+
+    def found(wildcards):
+        entry = config[section][wildcards.figure]
+        hoppers = entry["hoppers"] if "hoppers" in entry else [entry["hopper"]]
+        return ", ".join(dict.fromkeys(hopper["geometry"] for hopper in hoppers))
+
+    return found
+
+
 def second_row(wildcards):
     """The artifacts of a figure's second row, if it has one."""
     if "second_row" not in config["friction_curves"][wildcards.figure]:

@@ -9,6 +9,7 @@ import xarray as xr
 
 from hopper_workflow.claims import (
     section_1,
+    section_1_marches,
     section_2,
     section_3,
     section_4_parameters,
@@ -22,6 +23,7 @@ from hopper_workflow.claims.words import Claim
 
 SECTIONS: tuple[ModuleType, ...] = (
     section_1,
+    section_1_marches,
     section_2,
     section_3,
     section_4_smooth_wall,

@@ -8,12 +8,14 @@ from hopper.arguments import Positive, Radians, checked
 from hopper.assessment.propagation import with_errors
 from hopper.assessment.radial import wall_velocity
 from hopper.brief import brief
-from hopper.design.half_angles import HalfAngles, Material, half_angles
+from hopper.design.half_angles import HalfAngles, half_angles
+from hopper.design.material import Material
 from hopper.design.outlet import FlowFunction, Outlet, smallest_outlet
 from hopper.errors import ConvergenceError, NonPositiveStressError, SingularVelocityError
 from hopper.quantity import Quantity
 from hopper.radial.flow_factor import flow_factor
 from hopper.stability.modes import Disturbances
+from hopper.values import require_angle
 
 # Step in the half angle for slopes, radians.
 _STEP = 1e-6
@@ -53,7 +55,7 @@ class Design:
     outlet: Outlet | None
     notes: tuple[str, ...]
 
-    __repr__ = brief("half_angles", "recommended deg", "flow_factor")
+    __repr__ = brief("recommended deg", "half_angles.governed_by", "flow_factor", "outlet")
 
 
 @checked
@@ -72,6 +74,7 @@ def design(
     InvalidParameterError
         If an argument is out of range, or no outlet is wide enough for the flow function.
     """
+    require_angle("margin", margin, zero_allowed=True)
     found = half_angles(material, disturbances)
     notes, smallest = list(found.notes), found.smallest
     recommended = smallest and Quantity(smallest.value - margin, smallest.error)

@@ -4,9 +4,11 @@ from dataclasses import dataclass
 
 from hopper.arguments import Radians, checked
 from hopper.brief import brief
-from hopper.design.half_angles import Material, flow_limit
+from hopper.design.half_angles import flow_limit
+from hopper.design.material import Material
 from hopper.errors import NoLimitError, NonPositiveStressError, NoRadialSolutionError, NowhereError
 from hopper.quantity import Quantity
+from hopper.values import require_angle
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,7 @@ def flow_pattern(material: Material, half_angle: Radians) -> FlowPattern:
     ConvergenceError
         If the limit is not resolved.
     """
+    require_angle("half_angle", half_angle)
     try:
         limit = flow_limit(material)
     except NowhereError as error:

@@ -11,10 +11,12 @@ from typing import Literal, TypeVar, get_args
 import numpy as np
 from scipy.optimize import brentq
 
-from hopper.arguments import Radians, checked
+from hopper.arguments import checked
+from hopper.arrays import Array
 from hopper.assessment.propagation import ROUNDING, with_errors
 from hopper.assessment.stability import abscissa_with_error
 from hopper.brief import brief
+from hopper.design.material import NARROWEST, Material
 from hopper.errors import (
     ConvergenceError,
     HopperError,
@@ -23,21 +25,18 @@ from hopper.errors import (
     NoRadialSolutionError,
     NowhereError,
 )
-from hopper.problem import Geometry, Hopper
 from hopper.quantity import Quantity
 from hopper.radial.friction_limit import friction_limit
 from hopper.radial.mass_flow import mass_flow_half_angle
-from hopper.radial.solution import RadialSolution, solve_radial
 from hopper.stability.modes import Disturbances, linear_stability
-from hopper.values import require_angle, shown
-from hopper.yield_conditions import MOHR_COULOMB, YieldCondition
+from hopper.yield_conditions import MOHR_COULOMB
 
 Limit = Literal["classical", "limit", "velocity", "stability"]
 LIMITS: tuple[Limit, ...] = get_args(Limit)
 _Found = TypeVar("_Found")
 
-# The narrowest and the widest half angle looked at, and where roots end (radians).
-_NARROWEST, _WIDEST, _ROOT = radians(0.5), radians(89), 1e-12
+# The widest half angle looked at, and where roots end (radians).
+_WIDEST, _ROOT = radians(89), 1e-12
 # Half angles at which stability is looked at, and how far below the limit of friction the last may
 # be, relative: the first of these at which fields are resolved.
 _SAMPLES, _BELOW = 16, (1e-8, 1e-6, 1e-4, 1e-2, 0.05, 0.2)
@@ -45,51 +44,6 @@ _SAMPLES, _BELOW = 16, (1e-8, 1e-6, 1e-4, 1e-2, 0.05, 0.2)
 _CLOSE = 1e-3
 # Step for slopes, radians.
 _STEP = 1e-6
-
-
-@dataclass(frozen=True)
-class Material:
-    """What fills a hopper, and its wall: angles in radians.
-
-    Parameters
-    ----------
-    geometry : "wedge" or "cone"
-    delta, friction_angle : float
-        Angles of internal friction and of wall friction.
-    condition : YieldCondition
-        Mohr-Coulomb, or von Mises (cone only).
-
-    Raises
-    ------
-    InvalidParameterError
-        If a value is out of range, or the combination is not modelled.
-    """
-
-    geometry: Geometry
-    delta: float
-    friction_angle: float
-    condition: YieldCondition = MOHR_COULOMB
-
-    __repr__ = brief("geometry", "delta deg", "friction_angle deg", "condition.name")
-
-    def __post_init__(self) -> None:
-        condition: object = self.condition
-        if not isinstance(condition, YieldCondition):
-            raise InvalidParameterError(
-                f"condition = {shown(condition)} is not a yield condition: use yield_condition(name)"
-            )
-        Hopper(self.geometry, self.delta, _NARROWEST, self.condition)
-        require_angle("friction_angle", self.friction_angle, zero_allowed=True)
-
-    @checked
-    def hopper(self, half_angle: Radians) -> Hopper:
-        """Return the hopper of a half angle."""
-        return Hopper(self.geometry, self.delta, half_angle, self.condition)
-
-    @checked
-    def solution(self, half_angle: Radians) -> RadialSolution:
-        """Return the radial solution at a half angle, as :func:`hopper.radial.solve_radial`."""
-        return solve_radial(self.hopper(half_angle), self.friction_angle)
 
 
 @dataclass(frozen=True)
@@ -154,7 +108,7 @@ def half_angles(material: Material, disturbances: Disturbances | None = None) ->
     InvalidParameterError
         If an angle is out of range, or asymmetric disturbances of a cone are asked for.
     """
-    narrow = material.hopper(_NARROWEST)
+    narrow = material.hopper(NARROWEST)
     narrow.material.wall_angle(narrow.delta, material.friction_angle)
     notes: dict[Limit, str] = {}
     classical = _noted(notes, "classical", lambda: _classical(material))
@@ -219,7 +173,7 @@ def _classical(material: Material) -> Quantity:
         raise NoLimitError("known of Mohr-Coulomb cones only")
 
     def angle(delta: float) -> float:
-        hopper = replace(material.hopper(_NARROWEST), delta=delta)
+        hopper = replace(material.hopper(NARROWEST), delta=delta)
         return mass_flow_half_angle(hopper, material.friction_angle)
 
     try:
@@ -240,11 +194,11 @@ def _limit(material: Material) -> Quantity:
             return -pi / 2  # not even for a smooth wall
         return found.friction_angle - material.friction_angle
 
-    if excess(_NARROWEST) <= 0:
+    if excess(NARROWEST) <= 0:
         raise NowhereError("no half angle has a radial solution with this wall")
     if excess(_WIDEST) > 0:
         raise NoLimitError("radial solutions exist at every half angle")
-    root = brentq(excess, _NARROWEST, _WIDEST, xtol=_ROOT)
+    root = brentq(excess, NARROWEST, _WIDEST, xtol=_ROOT)
     try:
         here, before = (friction_limit(material.hopper(angle)) for angle in (root, root - _STEP))
     except NoRadialSolutionError:  # a smooth wall, of which the limit is where the family ends
@@ -257,14 +211,14 @@ def _velocity(material: Material, widest: float) -> Quantity:
     def excess(half_angle: float) -> float:
         return material.solution(half_angle).psi_maximum()[1] - pi / 4
 
-    if excess(_NARROWEST) >= 0:
+    if excess(NARROWEST) >= 0:
         raise NowhereError("radial flow reaches the wall at no half angle")
     end = _widest_solved(material, widest)
     if excess(end) < 0:
         if end < widest * (1 - _CLOSE):
             raise ConvergenceError(f"not resolved beyond {degrees(end):.4g} deg")
         raise NoLimitError("radial flow reaches the wall wherever it exists")
-    root = brentq(excess, _NARROWEST, end, xtol=_ROOT)
+    root = brentq(excess, NARROWEST, end, xtol=_ROOT)
     (psi,) = with_errors(
         material.solution(root), lambda solution: np.array(solution.psi_maximum()[1:])
     )
@@ -286,18 +240,12 @@ def _widest_solved(material: Material, widest: float) -> float:
 def _stable(
     material: Material, limit: Quantity | None, disturbances: Disturbances | None
 ) -> tuple[Quantity | None, Quantity]:
-    """Return the ends of the widest stable interval of half angles; the first None without one."""
+    """Return the ends of the last stable interval of half angles; the first None without one."""
     if material.condition != MOHR_COULOMB:
         raise NoLimitError("looked at for Mohr-Coulomb materials only")
 
     def abscissa(half_angle: float) -> float:
         return linear_stability(material.solution(half_angle), disturbances).abscissa
-
-    def sampled(half_angle: float) -> float:
-        try:
-            return abscissa(half_angle)
-        except HopperError:
-            return nan
 
     def root(low: float, high: float) -> Quantity:
         found = brentq(abscissa, low, high, xtol=_ROOT)
@@ -306,8 +254,29 @@ def _stable(
         return Quantity(found, (abs(here.value) + here.error) / slope + _ROOT)
 
     end = _widest_solved(material, limit.value) if limit else _WIDEST
-    angles = np.linspace(_NARROWEST, end, _SAMPLES)
-    values = np.array([sampled(float(angle)) for angle in angles])
+    angles = np.linspace(NARROWEST, end, _SAMPLES)
+    values = np.array([_or_nan(abscissa, angle) for angle in angles.tolist()])
+    first, last = _last_run(values)
+    least = root(angles[first - 1], angles[first]) if first and values[first - 1] >= 0 else None
+    if last + 1 < angles.size and not isnan(values[last + 1]):
+        return least, root(angles[last], angles[last + 1])
+    known = degrees(angles[last])
+    if last + 1 < angles.size:
+        raise ConvergenceError(f"stable up to {known:.4g} deg at least; not resolved beyond")
+    if limit is None:
+        raise NoLimitError(f"stable up to {known:.4g} deg, the widest looked at")
+    return least, limit
+
+
+def _or_nan(function: Callable[[float], float], half_angle: float) -> float:
+    try:
+        return function(half_angle)
+    except HopperError:
+        return nan
+
+
+def _last_run(values: Array) -> tuple[int, int]:
+    """Return the first and last index of the last run of negative values."""
     (stable,) = np.nonzero(values < 0)
     if not stable.size:
         known = np.isfinite(values).all()
@@ -315,13 +284,4 @@ def _stable(
     last = first = int(stable[-1])
     while first > 0 and values[first - 1] < 0:
         first -= 1
-    least = root(angles[first - 1], angles[first]) if first and values[first - 1] >= 0 else None
-    if last + 1 < angles.size:
-        if isnan(values[last + 1]):
-            raise ConvergenceError(
-                f"stable up to {degrees(angles[last]):.4g} deg at least; not resolved beyond"
-            )
-        return least, root(angles[last], angles[last + 1])
-    if limit is None:
-        raise NoLimitError(f"stable up to {degrees(angles[last]):.4g} deg, the widest looked at")
-    return least, limit
+    return first, last

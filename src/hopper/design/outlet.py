@@ -49,9 +49,7 @@ class FlowFunction:
 
 
 @checked
-def flow_function(
-    major: RealRow, strength: RealRow, slope: float | None = None
-) -> FlowFunction:
+def flow_function(major: RealRow, strength: RealRow, slope: float | None = None) -> FlowFunction:
     """Return a flow function through points (kPa), with the slope beyond them where that is known.
 
     Raises
