@@ -55,7 +55,7 @@ class Design:
     outlet: Outlet | None
     notes: tuple[str, ...]
 
-    __repr__ = brief("recommended deg", "half_angles.governed_by", "flow_factor", "outlet")
+    __repr__ = brief("recommended deg", "half_angles.governed_by", "flow_factor")
 
 
 @checked
