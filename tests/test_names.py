@@ -142,6 +142,7 @@ def results():
     from hopper.assessment.neutral import assess_neutral
     from hopper.design.design import Demand, design
     from hopper.design.flow_pattern import flow_pattern
+    from hopper.design.judgement import judge_hopper
     from hopper.design.material import Material
     from hopper.design.outlet import linear_flow_function
     from hopper.domain.borders import borders
@@ -180,6 +181,7 @@ def results():
     from hopper.von_mises.neutral import neutral_point
     from hopper.von_mises.saint_venant import end_effects
     from hopper.von_mises.verdict import judge
+    from hopper_data.hopper_lists import HopperList
     from hopper_data.inputs import Case, Wall
     from hopper_data.tables import number, rows
 
@@ -240,7 +242,8 @@ def results():
         Crossing(0.1, 0.1, 1, 1e-6), Breakdown(0.1, 1e-6, 0.5, 0.9),
         characteristics(wedge, scaled(1.0), 4, 0.01),
         found_design, found_design.half_angles, found_design.outlet, wanted, wanted.flow_function,
-        steel_wall, flow_pattern(steel_wall, 0.2),
+        steel_wall, flow_pattern(steel_wall, 0.2), judge_hopper(steel_wall, 0.2),
+        HopperList(("geometry", "delta"), (), {}),
         describe_coupled(elliptic), judged, judged.type, judged.growth, judged.modes,
         judged.growth and judged.growth.strips,
         coupled_borders(radians(10), np.array([0.5])), sweep_coupled(hard, np.array([0.1])),

@@ -20,7 +20,7 @@ from hopper.errors import ConvergenceError, NoRadialSolutionError, WallFrictionE
 from hopper.problem import as_geometry
 from hopper.radial.solution import solve_radial
 from hopper.stability.collocation import Parity
-from hopper_cli import designs, documents, progress, sentences, text, written
+from hopper_cli import designs, documents, progress, sentences, sheets, text, written
 from hopper_cli.errors import UsageError
 from hopper_data import assessments, tables
 from hopper_data.inputs import Case, Wall
@@ -48,6 +48,7 @@ def answer(options: Namespace) -> str:
         "neutral": _neutral,
         "march": _march,
         "design": designs.answer,
+        "table": sheets.answer,
     }
     return commands[options.command](options)
 

@@ -15,6 +15,7 @@ def doubts(options: Namespace) -> list[str]:
     known = [angle for angle in angles if angle is not None]
     if len(known) > 1 and max(known) < _RADIANS_END:
         found.append("all angles are below 1.6 degrees: are they in radians? give degrees")
-    if options.mu is not None and _LARGE_COEFFICIENT <= options.mu < 90:
-        found.append(f"--mu {options.mu:g} is a coefficient: was --phi {options.mu:g} meant?")
+    mu = getattr(options, "mu", None)
+    if mu is not None and _LARGE_COEFFICIENT <= mu < 90:
+        found.append(f"--mu {mu:g} is a coefficient: was --phi {mu:g} meant?")
     return found

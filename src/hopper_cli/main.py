@@ -14,7 +14,7 @@ from typing import NoReturn
 
 import hopper
 from hopper.errors import HopperError, InvalidParameterError
-from hopper_cli import design_options, hints, march_options, values
+from hopper_cli import design_options, hints, march_options, sheet_options, values
 from hopper_cli.errors import UsageError
 from hopper_cli.outputs import FileError, checked
 
@@ -24,6 +24,7 @@ EXAMPLES = {
     "radial": "hopper radial --geometry cone --delta 40 --half-angle 20 --mu 0.3",
     "stability": "hopper stability --geometry cone --delta 40 --half-angle 20 --mu 0.3",
     "neutral": "hopper neutral --geometry cone --half-angle 10 --phi 10",
+    "table": "hopper table hoppers.csv --out results.csv",
     "design": "hopper design --geometry cone --delta 40 --phi 16",
     "march": "hopper march --geometry wedge --delta 45 --half-angle 15 --mu 0.2 --top bump-s "
     "--eps 0.2 --depth 1",
@@ -129,6 +130,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_wall(design)
     design_options.add(design)
     _add_modes(stability, neutral, design)
+    sheet_options.add(_command(commands, "table", "the short answer about each hopper of a list"))
     return parser
 
 
@@ -186,6 +188,9 @@ def _command(
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
+    # The answers of a list are files.
+    if name == "table":
+        return command
     command.add_argument(
         "--json",
         action="store_true",
@@ -229,6 +234,11 @@ def _check(options: argparse.Namespace) -> None:
     UsageError
         If an option is wrong.
     """
+    if options.command == "table":
+        sheet_options.check(options)
+        if options.out.suffix.lower() == ".nc":
+            _require_libraries("--out", ".nc")
+        return
     if getattr(options, "disturbances", None) == "any" and options.geometry == "cone":
         raise UsageError(
             "argument --disturbances: asymmetric disturbances are singular at the apex of a cone: "

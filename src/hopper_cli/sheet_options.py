@@ -1,0 +1,56 @@
+"""Options of ``hopper table``: a list of hoppers, where the answers go, and how many cores."""
+
+import argparse
+import os
+from pathlib import Path
+
+from hopper_cli import values
+from hopper_cli.errors import UsageError
+from hopper_cli.outputs import FileError, checked
+
+_SUFFIXES = (".csv", ".json", ".nc")
+
+
+def add(command: argparse.ArgumentParser) -> None:
+    """Add the options to the subcommand."""
+    command.add_argument(
+        "list",
+        type=Path,
+        metavar="LIST.csv",
+        help="a row a hopper: columns geometry, delta, half-angle, mu or phi, and if wanted model "
+        "and disturbances; others are kept",
+    )
+    command.add_argument(
+        "--out",
+        type=Path,
+        required=True,
+        metavar="FILE",
+        help="write the answers to FILE.csv, .json or .nc",
+    )
+    command.add_argument(
+        "--cores",
+        type=_cores,
+        default=os.cpu_count() or 1,
+        metavar="N",
+        help="processes, default all cores: %(default)s",
+    )
+    command.add_argument("--force", action="store_true", help="overwrite an existing file")
+
+
+def check(options: argparse.Namespace) -> None:
+    """Find a file that cannot be written.
+
+    Raises
+    ------
+    UsageError
+        If there is one.
+    """
+    try:
+        checked(options.out, _SUFFIXES, overwrite=options.force)
+    except FileError as error:
+        raise UsageError(f"argument --out: {error}") from None
+
+
+def _cores(text: str) -> int:
+    meaning = "a whole number from 1 to 1024"
+    return int(values.number(text, meaning, lambda n: 1 <= n <= 1024 and n.is_integer()))

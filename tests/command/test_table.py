@@ -1,0 +1,175 @@
+"""`hopper table`: every row answered or with its reason, nothing lost."""
+
+import csv
+import json
+import shlex
+
+import pytest
+import xarray as xr
+
+from hopper_cli import sheets
+from hopper_cli.main import main
+
+TITLES = "name,geometry,delta,half-angle,phi,mu"
+ROWS = (
+    "=A1,cone,40,20,16,",
+    "b,cone,40,36,16,",
+    "c,wedge,45,20,20,",
+    'd,wedge,"38,5",20,20,',
+    "e,cone,25,30,,0.4",
+    "f,pyramid,25,30,,0.4",
+    "g,cone,30,10,35,",
+    "h,cone,30,10,5,0.1",
+)
+
+
+@pytest.fixture
+def run(capsys):
+    """Run the command in this process; return exit code, stdout and stderr."""
+
+    def run(command):
+        code = main(shlex.split(command))
+        out, err = capsys.readouterr()
+        return code, out, err
+
+    return run
+
+
+@pytest.fixture
+def hoppers(tmp_path):
+    path = tmp_path / "hoppers.csv"
+    path.write_text("\n".join([TITLES, *ROWS]) + "\n", encoding="utf-8")
+    return path
+
+
+def read(path):
+    with path.open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def test_every_row_has_its_answer_or_its_reason(run, hoppers, tmp_path):
+    out = tmp_path / "answers.csv"
+    code, said, _ = run(f"table {hoppers} --out {out} --cores 1")
+    assert code == 0
+    assert said == (f"8 hoppers answered in {out}, 5 without a verdict: see the column reason.\n")
+    rows = read(out)
+    assert [row["name"] for row in rows] == ["'=A1", *"bcdefgh"]
+    assert [row["verdict"] for row in rows] == ["stable", "", "stable", "", "unstable", "", "", ""]
+    for row, words in (
+        (1, "the largest friction that has one"),
+        (3, "column delta: '38,5' is no number"),
+        (5, "geometry = 'pyramid' is unknown"),
+        (6, "transmits at most phi = 30 deg"),
+        (7, "give one of the columns mu and phi"),
+    ):
+        assert words in rows[row]["reason"]
+    assert all(bool(row["verdict"]) != bool(row["reason"]) for row in rows)
+    assert rows[0]["sentence"] == "Mass flow: yes, with 12.4 deg of half angle to spare."
+
+
+def test_a_row_says_what_the_other_commands_say(run, hoppers, tmp_path):
+    out = tmp_path / "answers.json"
+    run(f"table {hoppers} --out {out} --cores 1")
+    rows = json.loads(out.read_text(encoding="utf-8"))
+    for row in (rows[0], rows[2]):
+        case = (
+            f"--geometry {row['geometry']} --delta {row['delta']} --half-angle "
+            f"{row['half-angle']} --phi {row['phi']} --json"
+        )
+        radial, stability = (json.loads(run(f"{it} {case}")[1]) for it in ("radial", "stability"))
+        assert row["sentence"] == radial["sentence"] == stability["sentence"]
+        assert row["verdict"] == stability["verdict"]
+        assert row["governed_by"] == stability["governed_by"]
+        difference = abs(row["abscissa"] - stability["abscissa"])
+        assert difference <= row["abscissa_error"] + stability["error_estimate"]
+        assert abs(row["flow_factor"] - radial["flow_factor"]) <= row["flow_factor_error"] * 2
+
+
+def test_netcdf_has_a_variable_for_each_column(run, hoppers, tmp_path):
+    out = tmp_path / "answers.nc"
+    run(f"table {hoppers} --out {out} --cores 1")
+    with xr.open_dataset(out) as data:
+        assert data.sizes == {"row": len(ROWS)}
+        assert list(data) == [*TITLES.split(","), *sheets.COLUMNS]
+        assert data.abscissa.dtype == float
+
+
+def test_a_run_that_was_stopped_goes_on(run, hoppers, tmp_path, monkeypatch):
+    monkeypatch.setattr(sheets, "_TASK", 1)
+    done: list[int] = []
+    answer_of, patience = sheets.row_answer, 3
+
+    def counted(listed, row):
+        if len(done) == patience:
+            raise KeyboardInterrupt
+        done.append(row)
+        return answer_of(listed, row)
+
+    monkeypatch.setattr(sheets, "row_answer", counted)
+    out = tmp_path / "answers.csv"
+    code, _, err = run(f"table {hoppers} --out {out} --cores 1")
+    assert code == 130
+    assert "stopped after 3 of 8 rows: the same command goes on from there" in err
+    assert not out.exists()
+    patience = 99
+    assert run(f"table {hoppers} --out {out} --cores 1")[0] == 0
+    assert done == list(range(8))
+    assert len(read(out)) == 8
+    assert [path.name for path in tmp_path.iterdir() if path.name.startswith(".")] == []
+
+
+def test_another_list_does_not_go_on(run, hoppers, tmp_path):
+    out = tmp_path / "answers.csv"
+    out.with_name(".answers.csv.journal").write_text("another\n[0, {}]\n", encoding="utf-8")
+    run(f"table {hoppers} --out {out} --cores 1")
+    assert read(out)[0]["verdict"] == "stable"
+
+
+def test_several_processes_give_the_same_bytes(run, hoppers, tmp_path, monkeypatch):
+    monkeypatch.setattr(sheets, "_TASK", 4)
+    for cores in (1, 2):
+        run(f"table {hoppers} --out {tmp_path / f'{cores}.csv'} --cores {cores}")
+    assert (tmp_path / "1.csv").read_bytes() == (tmp_path / "2.csv").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ("", "has no hoppers"),
+        (f"{TITLES}\n", "has no hoppers"),
+        ("geometry,delta,phi\ncone,40,16\n", "has no column half-angle"),
+        ("geometry,delta,half-angle\ncone,40,16\n", "has no column mu or phi"),
+        ("geometry,delta,half-angle,mu,mu\ncone,40,16,0,0\n", "has the column 'mu' twice"),
+        ("geometry,delta,half-angle,mu\ncone,40,16\n", "row 2 has 3 cells, the titles are 4"),
+        (
+            "geometry,delta,half-angle,mu,verdict\ncone,40,16,0,yes\n",
+            "verdict is one of the answer's",
+        ),
+    ],
+)
+def test_lists_that_are_refused(run, tmp_path, content, message):
+    path = tmp_path / "list.csv"
+    path.write_text(content, encoding="utf-8")
+    code, out, err = run(f"table {path} --out {tmp_path / 'answers.csv'}")
+    assert (code, out) == (2, "")
+    assert err.startswith("hopper: error: argument LIST: ")
+    assert message in err
+    assert len(err.splitlines()) == 1
+    assert not (tmp_path / "answers.csv").exists()
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ("none.csv --out a.csv", "cannot be read"),
+        ("none.csv --out a.xls", "has no known suffix: use .csv or .json or .nc"),
+        ("none.csv --out nosuch/a.csv", "the folder nosuch does not exist"),
+        ("none.csv --out a.csv --cores 0", "a whole number from 1 to 1024"),
+    ],
+)
+def test_options_that_are_refused(run, tmp_path, monkeypatch, options, message):
+    monkeypatch.chdir(tmp_path)
+    code, _, err = run(f"table {options}")
+    assert code == 2
+    assert message in err
+    assert list(tmp_path.iterdir()) == []
