@@ -50,7 +50,8 @@ def answer(options: Namespace) -> str:
         "design": designs.answer,
         "table": sheets.answer,
     }
-    return commands[options.command](options)
+    found = commands[options.command](options)
+    return documents.explained(found) if getattr(options, "explain", False) else found
 
 
 def _radial(options: Namespace) -> str:

@@ -6,6 +6,7 @@ from math import isfinite
 from typing import Any
 
 from hopper_cli import text
+from hopper_data import glossary
 from hopper_data.tables import Row
 
 
@@ -13,6 +14,12 @@ def as_text(title: str, cells: Sequence[tuple[str, str]], sentences: Sequence[st
     """Return a title, a table of labels and values, and sentences."""
     table = [text.table(cells), ""] if cells else []
     return "\n".join([title, "", *table, *sentences])
+
+
+def explained(answer: str) -> str:
+    """Return a text with the definitions of its terms below."""
+    terms = glossary.explained(answer)
+    return "\n".join([answer, "", *(f"{term}: {words}" for term, words in terms.items())])
 
 
 def as_json(inputs: dict[str, Any], rows: Sequence[Row], **more: Any) -> str:

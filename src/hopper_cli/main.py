@@ -196,6 +196,7 @@ def _command(
         action="store_true",
         help="print JSON, errors too; psi_wall and psi_max are in radians, ..._deg in degrees",
     )
+    command.add_argument("--explain", action="store_true", help="say what the terms mean")
     return command
 
 
@@ -239,6 +240,8 @@ def _check(options: argparse.Namespace) -> None:
         if options.out.suffix.lower() == ".nc":
             _require_libraries("--out", ".nc")
         return
+    if options.explain and options.json:
+        raise UsageError("argument --explain: explains text: leave out --json")
     if getattr(options, "disturbances", None) == "any" and options.geometry == "cone":
         raise UsageError(
             "argument --disturbances: asymmetric disturbances are singular at the apex of a cone: "

@@ -6,6 +6,7 @@ import shlex
 import pytest
 
 from hopper_cli.main import main
+from hopper_data import glossary
 
 STEEL = "--geometry cone --delta 40 --phi 16"
 LIMITS = ("classical", "limit", "velocity", "stability", "recommended")
@@ -133,3 +134,28 @@ def test_a_wall_rougher_than_its_material(run):
     code, _, err = run("design --geometry cone --delta 30 --phi 34")
     assert code == 1
     assert "transmits at most phi = 30 deg" in err
+
+
+@pytest.mark.parametrize(
+    ("command", "terms"),
+    [
+        (f"radial {STEEL} --half-angle 20", {"mass flow", "fold", "Sokolovskii angle", "tangency"}),
+        (f"stability {STEEL} --half-angle 20", {"eigenvalue", "asymptotic line", "abscissa"}),
+        (f"design {STEEL}", {"mass-flow limit", "flow factor"}),
+    ],
+)
+def test_terms_are_explained(run, command, terms):
+    _, plain, _ = run(command)
+    _, out, _ = run(f"{command} --explain")
+    assert out.startswith(plain.rstrip("\n"))
+    explained = out[len(plain) :]
+    known = glossary.definitions()
+    for term in terms:
+        assert f"{term}: {known[term]}\n" in explained
+    assert "strip of high frequency" not in explained
+
+
+def test_definitions_are_one_each_and_plain():
+    known = glossary.definitions()
+    assert len(set(known.values())) == len(known)
+    assert all(not text.endswith(".") and "\n" not in text for text in known.values())
