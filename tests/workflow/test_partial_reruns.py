@@ -38,9 +38,9 @@ def test_a_mesh_reruns_what_is_computed_on_it(rebuilt):
 
 
 def test_more_rows_of_a_map_leave_the_number_of_jobs(rebuilt):
-    before = [job for job in rebuilt.reruns("--forceall") if "chunk" in job]
+    before = [job for job in rebuilt.reruns("--forceall") if "map_chunk" in job]
     rebuilt.set("stability_map.delta_deg.points", 50)
-    after = [job for job in rebuilt.reruns() if "chunk" in job]
+    after = [job for job in rebuilt.reruns() if "map_chunk" in job]
     assert sorted(after) == sorted(before)
 
 

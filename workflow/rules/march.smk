@@ -42,7 +42,7 @@ rule plot_fig_march_breakdown:
             caption="../report/fig_march_breakdown.rst",
             category="5 Marches down the hopper",
             labels=lambda wildcards: labels(
-                number_of(wildcards.figure),
+                entries.number_of(wildcards.figure),
                 "characteristics and psi up to the first crossing",
                 geometries("march_breakdown")(wildcards),
             ),
@@ -104,7 +104,7 @@ rule plot_fig_march_decay:
             caption="../report/fig_march_decay.rst",
             category="5 Marches down the hopper",
             labels=lambda wildcards: labels(
-                number_of(wildcards.figure),
+                entries.number_of(wildcards.figure),
                 "return to the radial field against the linear prediction",
                 geometries("march_decay")(wildcards),
             ),
@@ -166,7 +166,7 @@ rule plot_fig_march_breakdown_amplitude:
             caption="../report/fig_march_breakdown_amplitude.rst",
             category="5 Marches down the hopper",
             labels=lambda wildcards: labels(
-                number_of(wildcards.figure),
+                entries.number_of(wildcards.figure),
                 "depth of breakdown over amplitude",
                 geometries("march_amplitude")(wildcards),
             ),
@@ -229,7 +229,7 @@ rule plot_fig_march_depth:
             caption="../report/fig_march_depth.rst",
             category="5 Marches down the hopper",
             labels=lambda wildcards: labels(
-                number_of(wildcards.figure),
+                entries.number_of(wildcards.figure),
                 "how far down until the stress is radial",
                 geometries("march_depth")(wildcards),
             ),

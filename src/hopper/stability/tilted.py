@@ -69,9 +69,10 @@ def require_mohr_coulomb(hopper: Hopper) -> None:
     """
     if hopper.material != MOHR_COULOMB:
         raise InvalidParameterError(
-            f"material = {hopper.material.name} couples stress and velocity: use "
-            "hopper.von_mises.verdict; transients and pseudospectra are refused, as the "
-            "collocation matrix of that problem grows in ways that the equations do not"
+            f"material = {hopper.material.name} couples stress and velocity, this is formulated "
+            "for Mohr-Coulomb materials only: use mohr-coulomb, or hopper.von_mises.verdict; "
+            "transients and pseudospectra are refused, as the collocation matrix of that problem "
+            "grows in ways that the equations do not"
         )
 
 
