@@ -123,15 +123,19 @@ def _parser() -> argparse.ArgumentParser:
     )
     _add_geometry_and_model(neutral)
     _add_half_angle_and_wall(neutral)
+    _add_modes(stability, neutral, _add_design(commands))
+    sheet_options.add(_command(commands, "table", "the short answer about each hopper of a list"))
+    return parser
+
+
+def _add_design(commands: "argparse._SubParsersAction[_Parser]") -> argparse.ArgumentParser:
     design = _command(
         commands, "design", "how wide a hopper may be for mass flow, and its smallest outlet"
     )
     _add_material(design)
     _add_wall(design)
     design_options.add(design)
-    _add_modes(stability, neutral, design)
-    sheet_options.add(_command(commands, "table", "the short answer about each hopper of a list"))
-    return parser
+    return design
 
 
 def _add_modes(stability: argparse.ArgumentParser, *others: argparse.ArgumentParser) -> None:
