@@ -251,24 +251,23 @@ def _check(options: argparse.Namespace) -> None:
             "argument --disturbances: asymmetric disturbances are singular at the apex of a cone: "
             "use symmetric or --geometry wedge"
         )
-    if options.command == "march":
-        march_options.check(options)
-        if Path(options.top).suffix.lower() == ".nc":
-            _require_libraries("--top", ".nc")
     if options.model == "von-mises" and options.geometry == "wedge":
         raise UsageError(
             "argument --model: von-mises is formulated for cones only: use --geometry cone or "
             "--model mohr-coulomb"
         )
+    if options.command == "march":
+        march_options.check(options)
+        if Path(options.top).suffix.lower() == ".nc":
+            _require_libraries("--top", ".nc")
     if options.command == "design":
         design_options.check(options)
     if options.command in ("neutral", "design"):
         return
-    if options.model == "von-mises" and options.command == "march":
-        raise UsageError(
-            "argument --model: the stress march is formulated for mohr-coulomb only: use --model "
-            "mohr-coulomb"
-        )
+    _check_files(options)
+
+
+def _check_files(options: argparse.Namespace) -> None:
     for option, path, suffixes in (
         ("--profile", options.profile, (".csv", ".nc")),
         ("--plot", options.plot, (".png", ".pdf", ".svg")),

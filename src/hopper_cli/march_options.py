@@ -51,6 +51,11 @@ def check(options: argparse.Namespace) -> None:
     UsageError
         If an option is wrong.
     """
+    if options.model == "von-mises":
+        raise UsageError(
+            "argument --model: the stress march is formulated for mohr-coulomb only: use --model "
+            "mohr-coulomb"
+        )
     top = options.top
     if top not in _TOPS:
         path = Path(top)
