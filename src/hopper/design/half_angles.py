@@ -40,6 +40,8 @@ _WIDEST, _ROOT = radians(89), 1e-12
 # Half angles at which stability is looked at, and how far below the limit of friction the last may
 # be, relative: the first of these at which fields are resolved.
 _SAMPLES, _BELOW = 16, (1e-8, 1e-6, 1e-4, 1e-2, 0.05, 0.2)
+# Largest step in the half angle towards psi = pi/4, and how far beyond it the slope's aims.
+_STRIDE, _OVERSHOOT = radians(10), 1.1
 # How close to the limit of friction is as good as there, relative.
 _CLOSE = 1e-3
 # Step for slopes, radians.
@@ -147,13 +149,7 @@ def flow_limit(material: Material) -> Quantity:
     ConvergenceError
         If it is not resolved.
     """
-    if _slips(material):
-        return _classical(material)
-    try:
-        widest = _limit(material).value
-    except NoLimitError:
-        widest = _WIDEST
-    return _velocity(material, widest)
+    return _classical(material) if _slips(material) else _velocity(material, _WIDEST)
 
 
 def _slips(material: Material) -> bool:
@@ -208,22 +204,42 @@ def _limit(material: Material) -> Quantity:
 
 
 def _velocity(material: Material, widest: float) -> Quantity:
+    """Walk up to psi = pi/4 by steps that its slope suggests, then converge."""
+
     def excess(half_angle: float) -> float:
         return material.solution(half_angle).psi_maximum()[1] - pi / 4
 
-    if excess(NARROWEST) >= 0:
+    at, step, below = NARROWEST, _STRIDE, excess(NARROWEST)
+    if below >= 0:
         raise NowhereError("radial flow reaches the wall at no half angle")
-    end = _widest_solved(material, widest)
-    if excess(end) < 0:
-        if end < widest * (1 - _CLOSE):
-            raise ConvergenceError(f"not resolved beyond {degrees(end):.4g} deg")
-        raise NoLimitError("radial flow reaches the wall wherever it exists")
-    root = brentq(excess, NARROWEST, end, xtol=_ROOT)
+    failure: HopperError = NoRadialSolutionError("", None)
+    end = widest * (1 - _BELOW[0])
+    while at < end and step > _CLOSE * at:
+        beyond = min(at + step, end)
+        try:
+            value = excess(beyond)
+        except (ConvergenceError, NoRadialSolutionError) as error:
+            failure, step = error, step / 4
+            continue
+        if value >= 0:
+            root = brentq(excess, at, beyond, xtol=_ROOT)
+            return _with_slope(material, root, excess(root - _STEP))
+        rise = max(value - below, -value * _CLOSE)
+        aimed = _OVERSHOOT * -value * (beyond - at) / rise
+        at, below = beyond, value
+        step = min(_STRIDE, max(aimed, 2 * _CLOSE * at))
+    if isinstance(failure, ConvergenceError):
+        raise ConvergenceError(f"not resolved beyond {degrees(at):.4g} deg")
+    raise NoLimitError("radial flow reaches the wall wherever it exists")
+
+
+def _with_slope(material: Material, root: float, before: float) -> Quantity:
+    """Return where psi = pi/4, with its error; ``before`` is psi - pi/4 a step before."""
     (psi,) = with_errors(
         material.solution(root), lambda solution: np.array(solution.psi_maximum()[1:])
     )
-    slope = (psi.value - pi / 4 - excess(root - _STEP)) / _STEP
-    return Quantity(root, (abs(psi.value - pi / 4) + psi.error) / slope + _ROOT)
+    off = psi.value - pi / 4
+    return Quantity(root, (abs(off) + psi.error) / ((off - before) / _STEP) + _ROOT)
 
 
 def _widest_solved(material: Material, widest: float) -> float:
