@@ -59,8 +59,7 @@ test: lint
 CHECKS := results/figure_checks
 check: .venv/test.stamp
 	@$(SNAKEMAKE) $(AGAIN)
-	@$(BIN)/python -m pytest tests/figures/test_images.py -n 2 --mpl --mpl-results-path=$(CHECKS) \
-	  --mpl-generate-summary=html,basic-html
+	@$(BIN)/python -m pytest tests/figures/test_images.py -n 2 --mpl --mpl-results-path=$(CHECKS) --mpl-generate-summary=html,basic-html
 	@$(BIN)/python -m pytest tests/figures --ignore=tests/figures/test_images.py -n 2
 
 references: figures .venv/test.stamp
