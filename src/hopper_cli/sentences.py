@@ -23,7 +23,8 @@ _ENDS = {
 def mass_flow_sentence(found: FlowPattern) -> str:
     """Return whether there is mass flow, and with how much half angle to spare."""
     if found.spare is None:
-        return f"Mass flow: {'yes' if found.mass_flow else 'no'}, {found.reason}."
+        words = {True: "yes", False: "no", None: "not known"}
+        return f"Mass flow: {words[found.mass_flow]}, {found.reason}."
     spare = f"{abs(degrees(found.spare.value)):.3g} deg"
     if found.mass_flow:
         return f"Mass flow: yes, with {spare} of half angle to spare."

@@ -15,7 +15,6 @@ from time import monotonic
 from typing import Any
 
 from hopper.design.judgement import Judgement, judge_hopper
-from hopper.design.material import Material
 from hopper.errors import HopperError
 from hopper_cli import sentences
 from hopper_cli.errors import UsageError
@@ -60,11 +59,7 @@ def row_answer(hoppers: HopperList, row: int) -> _Answer:
     """Return the answer about a row by the names of its columns, None for what does not exist."""
     try:
         case, disturbances = hoppers.case(row)
-        hopper = case.hopper
-        material = Material(
-            hopper.geometry, hopper.delta, case.wall.friction_angle, hopper.material
-        )
-        found = judge_hopper(material, hopper.half_angle, disturbances)
+        found = judge_hopper(case.material, case.hopper.half_angle, disturbances)
     except HopperError as error:
         return {**dict.fromkeys(COLUMNS), "reason": str(error)}
     return _cells(found)
@@ -88,7 +83,7 @@ def _cells(found: Judgement) -> _Answer:
 def _answered(hoppers: HopperList, out: Path, cores: int) -> list[_Answer]:
     """Answer what a run that was stopped has not, and keep each answer at once."""
     journal = out.with_name(f".{out.name}.journal")
-    mark = hashlib.sha256(repr((hoppers, COLUMNS)).encode()).hexdigest()
+    mark = hashlib.sha256(repr((hoppers.titles, hoppers.rows, COLUMNS)).encode()).hexdigest()
     known = _kept(journal, mark)
     missing = [row for row in range(len(hoppers.rows)) if row not in known]
     with journal.open("a" if known else "w", encoding="utf-8") as file:

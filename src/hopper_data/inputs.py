@@ -4,6 +4,7 @@ from dataclasses import asdict, dataclass
 from math import atan, degrees, radians, tan
 from typing import Any, Self
 
+from hopper.design.material import Material
 from hopper.problem import Hopper, as_geometry
 from hopper.radial.solution import RadialSolution, solve_radial
 from hopper.yield_conditions import yield_condition
@@ -76,6 +77,12 @@ class Case:
             If a value is out of range or the combination is not modelled.
         """
         return hopper_of(self.geometry, self.delta_deg, self.half_angle_deg, self.model)
+
+    @property
+    def material(self) -> Material:
+        """What fills the hopper, and its wall, as :attr:`hopper`."""
+        hopper = self.hopper
+        return Material(hopper.geometry, hopper.delta, self.wall.friction_angle, hopper.material)
 
     def echoed(self) -> dict[str, Any]:
         """Return the inputs by their keys in JSON and netCDF."""

@@ -1,11 +1,9 @@
 """`hopper design`, and the first line of all answers."""
 
 import json
-import shlex
 
 import pytest
 
-from hopper_cli.main import main
 from hopper_data import glossary
 
 STEEL = "--geometry cone --delta 40 --phi 16"
@@ -14,18 +12,6 @@ KEYS = {
     *(f"half_angle_{name}_deg" for name in LIMITS),
     *("flow_factor", "velocity_ratio", "critical_stress_kpa", "outlet_m"),
 }
-
-
-@pytest.fixture
-def run(capsys):
-    """Run the command in this process; return exit code, stdout and stderr."""
-
-    def run(command):
-        code = main(shlex.split(command))
-        out, err = capsys.readouterr()
-        return code, out, err
-
-    return run
 
 
 def test_keys_errors_and_reasons(run):

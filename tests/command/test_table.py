@@ -2,13 +2,11 @@
 
 import csv
 import json
-import shlex
 
 import pytest
 import xarray as xr
 
 from hopper_cli import sheets
-from hopper_cli.main import main
 
 TITLES = "name,geometry,delta,half-angle,phi,mu"
 ROWS = (
@@ -21,18 +19,6 @@ ROWS = (
     "g,cone,30,10,35,",
     "h,cone,30,10,5,0.1",
 )
-
-
-@pytest.fixture
-def run(capsys):
-    """Run the command in this process; return exit code, stdout and stderr."""
-
-    def run(command):
-        code = main(shlex.split(command))
-        out, err = capsys.readouterr()
-        return code, out, err
-
-    return run
 
 
 @pytest.fixture
@@ -123,6 +109,18 @@ def test_another_list_does_not_go_on(run, hoppers, tmp_path):
     out.with_name(".answers.csv.journal").write_text("another\n[0, {}]\n", encoding="utf-8")
     run(f"table {hoppers} --out {out} --cores 1")
     assert read(out)[0]["verdict"] == "stable"
+
+
+def test_a_list_with_the_same_titles_does_not_go_on_either(run, hoppers, tmp_path, monkeypatch):
+    """Other hoppers under the same names of columns are another list."""
+    monkeypatch.setattr(sheets, "row_answer", lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
+    out = tmp_path / "answers.csv"
+    run(f"table {hoppers} --out {out} --cores 1")
+    journal = out.with_name(".answers.csv.journal")
+    mark = journal.read_text(encoding="utf-8")
+    hoppers.write_text("\n".join([TITLES, *ROWS[1:]]) + "\n", encoding="utf-8")
+    run(f"table {hoppers} --out {out} --cores 1")
+    assert journal.read_text(encoding="utf-8") != mark
 
 
 def test_several_processes_give_the_same_bytes(run, hoppers, tmp_path, monkeypatch):

@@ -6,7 +6,13 @@ from hopper.arguments import Radians, checked
 from hopper.brief import brief
 from hopper.design.half_angles import flow_limit
 from hopper.design.material import Material
-from hopper.errors import NoLimitError, NonPositiveStressError, NoRadialSolutionError, NowhereError
+from hopper.errors import (
+    ConvergenceError,
+    NoLimitError,
+    NonPositiveStressError,
+    NoRadialSolutionError,
+    NowhereError,
+)
 from hopper.quantity import Quantity
 from hopper.values import require_angle
 
@@ -17,14 +23,15 @@ class FlowPattern:
 
     Attributes
     ----------
-    mass_flow : bool
+    mass_flow : bool or None
+        None where the limit is not resolved.
     spare : Quantity or None
         Half angle (radians) up to the limit of mass flow, negative beyond it; None without a limit.
     reason : str
         Why there is none; empty otherwise.
     """
 
-    mass_flow: bool
+    mass_flow: bool | None
     spare: Quantity | None
     reason: str
 
@@ -42,23 +49,25 @@ def flow_pattern(material: Material, half_angle: Radians) -> FlowPattern:
     ------
     WallFrictionError
         If the material cannot transmit the wall's friction.
-    ConvergenceError
-        If the limit is not resolved.
     """
     require_angle("half_angle", half_angle)
     try:
         limit = flow_limit(material)
     except NowhereError as error:
         return FlowPattern(False, None, str(error))
+    except (ConvergenceError, NonPositiveStressError) as error:
+        return FlowPattern(None, None, str(error))
     except NoLimitError as error:
         return FlowPattern(_solved(material, half_angle), None, str(error))
     spare = Quantity(limit.value - half_angle, limit.error)
     return FlowPattern(spare.value > 0, spare, "")
 
 
-def _solved(material: Material, half_angle: float) -> bool:
+def _solved(material: Material, half_angle: float) -> bool | None:
     try:
         material.solution(half_angle)
     except (NoRadialSolutionError, NonPositiveStressError):
         return False
+    except ConvergenceError:
+        return None
     return True

@@ -26,8 +26,10 @@ from hopper.errors import (
     NowhereError,
 )
 from hopper.quantity import Quantity
+from hopper.radial.collocation import largest_psi
 from hopper.radial.friction_limit import friction_limit
 from hopper.radial.mass_flow import mass_flow_half_angle
+from hopper.radial.members import physical_member
 from hopper.stability.modes import Disturbances, linear_stability
 from hopper.yield_conditions import MOHR_COULOMB
 
@@ -206,8 +208,12 @@ def _limit(material: Material) -> Quantity:
 def _velocity(material: Material, widest: float) -> Quantity:
     """Walk up to psi = pi/4 by steps that its slope suggests, then converge."""
 
+    # Of members: psi does not ask for a positive stress, which narrow wedges may lack.
     def excess(half_angle: float) -> float:
-        return material.solution(half_angle).psi_maximum()[1] - pi / 4
+        member = physical_member(material.hopper(half_angle), material.friction_angle)
+        if member is None:
+            raise NoRadialSolutionError("no radial solution", None)
+        return largest_psi(member) - pi / 4
 
     at, step, below = NARROWEST, _STRIDE, excess(NARROWEST)
     if below >= 0:
