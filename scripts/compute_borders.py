@@ -26,6 +26,7 @@ def compute_borders(
     half_angle_deg: float,
     neutral_step_deg: float,
     delta_deg: dict[str, Any],
+    chord_deg: float,
     check: dict[str, Any],
 ) -> xr.Dataset:
     """Trace the neutral curve and the borders over delta; each point is a root of an equation.
@@ -37,7 +38,7 @@ def compute_borders(
     trace = partial(neutral_curve, shape, half_angle, radians(neutral_step_deg), radians(axis[-1]))
     neutral = trace()
     logging.info("%s, %g deg: %s", geometry, half_angle_deg, neutral)
-    limits = traced_borders(shape, half_angle, np.radians(axis))
+    limits = traced_borders(shape, half_angle, np.radians(axis), radians(chord_deg))
     result = {
         "neutral": neutral,
         "symmetric": trace("symmetric") if shape == "wedge" else None,

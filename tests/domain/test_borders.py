@@ -264,7 +264,7 @@ def test_area_that_radial_flow_reaches():
 def test_traced_borders_have_no_corner_between_their_points(geometry):
     """A limit over an even grid is off by degrees where a fold takes over, traced by 0.05."""
     even = np.radians(np.linspace(23, 29, 7))
-    traced = traced_borders(geometry, radians(30), even)
+    traced = traced_borders(geometry, radians(30), even, radians(0.03))
     assert set(even) <= set(traced.delta)
     assert np.all(np.diff(traced.delta) > 0)
     assert len(traced.end) == traced.delta.size
@@ -275,4 +275,4 @@ def test_traced_borders_have_no_corner_between_their_points(geometry):
 
 
 def test_traced_borders_of_no_delta_are_empty():
-    assert traced_borders("cone", radians(30), []).limit.size == 0
+    assert traced_borders("cone", radians(30), [], radians(0.03)).limit.size == 0

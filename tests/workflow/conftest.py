@@ -55,6 +55,7 @@ COARSE: dict[str, Any] = {
     "stability_map.phi_deg.points": 7,
     "borders.neutral_step_deg": 4,
     "borders.delta_deg.points": 5,
+    "borders.chord_deg": 10,
     "borders.check": CHECK,
     "paper_border.frictions": 2,
     "paper_border.delta_deg.step": 12,

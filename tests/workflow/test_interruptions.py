@@ -57,7 +57,7 @@ def test_killed_at_random_moments(built, fresh):
 @pytest.mark.soak
 def test_killed_at_many_random_moments(built, copy_workflow, tmp_path):
     expected, rng = sound(built), random.Random(SEED)
-    at_work, rounds, kills = 0, 4, 6
+    at_work, rounds, kills = 0, 2, 12
     compared: Counter[str] = Counter()
     for turn in range(rounds):
         workflow = copy_workflow(tmp_path / str(turn))

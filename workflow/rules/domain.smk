@@ -129,6 +129,7 @@ rule compute_borders:
         half_angle_deg=lambda wildcards: float(wildcards.angle),
         neutral_step_deg=config["borders"]["neutral_step_deg"],
         delta_deg=config["borders"]["delta_deg"],
+        chord_deg=config["borders"]["chord_deg"],
         check=config["borders"]["check"],
     message:
         "compute_borders/{wildcards.geometry}/{wildcards.angle}: Section 4: neutral curve and borders of the stable domain"

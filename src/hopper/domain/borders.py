@@ -7,13 +7,13 @@ so that no radial flow reaches the wall although stress and its stability are re
 """
 
 from dataclasses import dataclass
-from math import pi, radians
+from math import pi
 from typing import Self
 
 import numpy as np
 from scipy.optimize import brentq
 
-from hopper.arguments import Radians, RealRow, checked
+from hopper.arguments import Positive, Radians, RealRow, checked
 from hopper.arrays import Array, Mask
 from hopper.brief import brief
 from hopper.domain.growth import ROOT_TOLERANCE
@@ -26,9 +26,8 @@ from hopper.radial.friction_limit import friction_limit
 from hopper.radial.members import member_with_tau
 from hopper.stability.tilted import require_mohr_coulomb, tangency_angle
 
-# How far a border may be off the chord of its neighbours, radians, and how often an interval is
-# halved.
-_OFF_CHORD, _HALVINGS = radians(0.03), 5
+# How often an interval between borders is halved at most.
+_HALVINGS = 5
 
 
 @checked
@@ -192,11 +191,13 @@ def borders(geometry: Geometry, half_angle: Radians, deltas: RealRow) -> Borders
 
 
 @checked
-def traced_borders(geometry: Geometry, half_angle: Radians, deltas: RealRow) -> Borders:
+def traced_borders(
+    geometry: Geometry, half_angle: Radians, deltas: RealRow, chord: Positive
+) -> Borders:
     """Return the borders over ``deltas`` (radians), and over more where they bend or begin.
 
-    An interval is halved, up to five times, while the chord beside it is off by more than 0.03
-    degrees, or a border begins in it.
+    An interval is halved, up to five times, while the chord beside it is off by more than ``chord``
+    (radians), or a border begins in it.
 
     Raises
     ------
@@ -205,7 +206,7 @@ def traced_borders(geometry: Geometry, half_angle: Radians, deltas: RealRow) -> 
     """
     found = borders(geometry, half_angle, deltas)
     for _ in range(_HALVINGS):
-        rough = _rough(found)
+        rough = _rough(found, chord)
         if not rough.any():
             break
         middles = (found.delta[:-1] + found.delta[1:])[rough] / 2
@@ -222,16 +223,16 @@ def _merged(one: Borders, other: Borders) -> Borders:
     return Borders(**arrays, end=tuple(ends[index] for index in order))
 
 
-def _rough(found: Borders) -> Mask:
+def _rough(found: Borders, chord: float) -> Mask:
     """Return the intervals in which a line between neighbours is not the border, shape (n - 1,)."""
     x = found.delta
     rough = np.zeros(x[1:].size, dtype=bool)
     for y in (found.limit, found.tangency, found.singular_velocity, found.positive_stress):
         known = np.isfinite(y)
         rough |= known[:-1] != known[1:]
-        chord = y[:-2] + (y[2:] - y[:-2]) * (x[1:-1] - x[:-2]) / (x[2:] - x[:-2])
+        line = y[:-2] + (y[2:] - y[:-2]) * (x[1:-1] - x[:-2]) / (x[2:] - x[:-2])
         with np.errstate(invalid="ignore"):
-            off = np.abs(y[1:-1] - chord) > _OFF_CHORD
+            off = np.abs(y[1:-1] - line) > chord
         rough[:-1] |= off
         rough[1:] |= off
     return rough
