@@ -19,7 +19,8 @@ from hopper import Hopper, solve_radial
 from hopper.march.base import Base, base_of, base_state
 from hopper.march.equations import psi_factor, terms
 from hopper.march.fields import deviations
-from hopper.march.loop import make_loop, march_loop
+from hopper.march.history import march_loop
+from hopper.march.loop import make_loop
 from hopper.march.outcome import first_crossing
 from hopper.march.tops import bump_of_sigma, riemann_deviation
 from hopper.problem import Geometry
@@ -28,7 +29,7 @@ from hopper.spectral import chebyshev
 Array = NDArray[np.float64]
 EPS, TAU, ERROR = 0.05, 1.0, 1e-6
 X = np.linspace(0, 1, 21)
-UPWIND = (82, 122, 162, 242, 322, 402)
+UPWIND = (42, 62, 82, 122, 162, 242, 322, 402)
 # geometry, delta, half angle (deg), mu, eps: cases with published crossings.
 CROSSINGS: tuple[tuple[Geometry, float, float, float, float], ...] = (
     ("wedge", 35, 10, 0, 0.1),
@@ -125,12 +126,12 @@ def compare(geometry: Geometry, delta: float, half_angle: float, mu: float) -> N
     """Print times of the three methods in one hopper."""
     under = base(geometry, delta, half_angle, mu)
     exact = on_loop(under, 160)
-    own = first_good(lambda n: on_loop(under, n), (24, 32, 40, 48, 64, 80, 96, 128), exact)
+    own = first_good(lambda n: on_loop(under, n), (16, 20, 24, 32, 40, 48, 64, 80, 96, 128), exact)
     assert own is not None
     ours = seconds(lambda: on_loop(under, own))
     hopper = f"{geometry} {delta:g}/{half_angle:g}/{mu:g}"
     print(f"{hopper}: loop of {own} points: {ours:.2f} s per unit of tau")
-    size = first_good(lambda n: collocation(under, n), (24, 32, 48, 64, 80, 96, 128), exact)
+    size = first_good(lambda n: collocation(under, n), (16, 20, 24, 32, 48, 64, 80, 96, 128), exact)
     if size is not None:
         other = seconds(lambda: collocation(under, size))
         print(f"  Chebyshev collocation, {size} points: {other:.2f} s, {other / ours:.1f} x")

@@ -9,7 +9,8 @@ import pytest
 from hopper.evidence.motion import stress
 from hopper.march.base import base_of, radial_fields, tilt_height
 from hopper.march.fields import deviations, interpolated, momentum_residual, state_at, stress_of
-from hopper.march.loop import corner_defect, jacobian, make_loop, march_loop, rate, step
+from hopper.march.history import march_loop
+from hopper.march.loop import corner_defect, jacobian, make_loop, rate, step
 from hopper.march.mapped import mesh
 from hopper.march.tops import Top, bump_of_psi, bump_of_sigma, one_sided_bump, scaled
 from hopper.stability.modes import linear_stability
@@ -79,7 +80,7 @@ def test_tilted_time_shows_the_same_stress(case):
     """A march, met on r = r_top exp(-.1 - h), goes on from there in tilted time."""
     under = base(*case)
     tilted = base_of(under.solution, tilted=True)
-    history = on_loop(under, bump_of_sigma(0.1), 96, 0.4)
+    history = on_loop(under, bump_of_sigma(0.1), 128, 0.4)
 
     def at(x, tau):
         """Deviations on the surface tau + h."""
@@ -91,7 +92,7 @@ def test_tilted_time_shows_the_same_stress(case):
         return np.array(points)[:, :, 0].T
 
     assert np.ptp(tilt_height(tilted, under.hopper.half_angle * X)) > 0.02
-    later = on_loop(tilted, Top("met", True, lambda _, x: tuple(at(x, 0.1))), 96, 0.1)
+    later = on_loop(tilted, Top("met", True, lambda _, x: tuple(at(x, 0.1))), 128, 0.1)
     found = np.stack(deviations(later.loop, later.w[-1], X))
     assert np.abs(found - at(X, 0.2)).max() < 2e-7
 
@@ -101,7 +102,7 @@ def test_two_legs_of_a_symmetric_top_are_one():
     one = on_loop(under, top, 64, 0.2)
     loop = make_loop(under, 64, 2)
     two = march_loop(loop, np.repeat(one.w[0], 2, axis=0), 0.2)
-    np.testing.assert_allclose(two.w[-1], np.repeat(one.w[-1], 2, axis=0), rtol=0, atol=1e-14)
+    np.testing.assert_allclose(two.w[-1], np.repeat(one.w[-1], 2, axis=0), rtol=0, atol=1e-13)
 
 
 @pytest.mark.parametrize("case", HOPPERS)
@@ -145,7 +146,7 @@ def test_momentum_balance_of_the_stresses(case):
     assert residuals[1] < residuals[0] / 2
     history = on_loop(under, bump_of_sigma(0.1), 96, 0.2)
     loop = history.loop
-    wrong = replace(history, loop=replace(loop, psi_factor=1.01 * loop.psi_factor))
+    wrong = replace(history, loop=replace(loop, by_t=1.01 * loop.by_t))
     assert momentum_residual(wrong, 0.15) > 100 * residuals[1]
 
 
@@ -255,11 +256,11 @@ def test_tangency_ends_the_march():
     assert fine.tangency is not None
     assert fine.tangency[0] == pytest.approx(0.056, abs=5e-4)
     assert fine.tangency[0] == pytest.approx(coarse.tangency[0], abs=2e-4)
-    # psi is at its limit there.
-    even, odd = deviations(fine.loop, fine.w[-1], np.linspace(0, 1, 401))
-    _, psi = radial_fields(under, under.hopper.half_angle * np.linspace(0, 1, 401))
+    # At a node psi is at its limit there, but for a last step, which changes it by a degree.
+    even, odd = deviations(fine.loop, fine.w[-1], fine.loop.mesh.x)
+    _, psi = radial_fields(under, fine.loop.y)
     assert np.isfinite(even).all()
-    assert degrees(np.abs(psi + odd).max()) == pytest.approx(45 - 12.5, abs=0.5)
+    assert 44 - 12.5 < degrees(np.abs(psi + odd).max()) <= 45 - 12.5
 
 
 def test_mesh_differentiates_and_interpolates():

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from hopper.march.base import Base, base_of
-from hopper.march.loop import History, make_loop, march_loop
+from hopper.march.history import History, march_loop
+from hopper.march.loop import make_loop
 from hopper.march.tops import Top, bump_of_psi, bump_of_sigma, riemann_deviation
 from hopper.problem import Geometry, Hopper
 from hopper.radial.grid import half_grid

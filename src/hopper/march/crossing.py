@@ -13,7 +13,7 @@ import numpy as np
 
 from hopper.arrays import Array
 from hopper.brief import brief
-from hopper.march.loop import Report
+from hopper.march.history import Report
 from hopper.march.net import MINUS, PLUS, SLOPES, TAU, THETA, Net, rows
 
 # Rows through whose gaps the crossing of a pair is interpolated, and neighbours of the first pair

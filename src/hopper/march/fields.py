@@ -6,12 +6,15 @@ import numpy as np
 
 from hopper.arrays import Array
 from hopper.brief import brief
-from hopper.march.equations import tilt
-from hopper.march.loop import History, Loop, step
+from hopper.march.equations import psi_factor, tilt
+from hopper.march.history import History
+from hopper.march.loop import Loop, rate, step
 
 # Step of the central difference in tau, in parts of the march's own steps: its error, about the
 # step's to the second power, is then that of the march.
 _DIFFERENCE = 0.02
+# Steps of Runge-Kutta's method in one of the march, which are longer.
+_PARTS = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,11 +38,13 @@ def stress_of(s: float, sigma: Array, psi: Array) -> Stress:
 
 
 def state_at(history: History, tau: float) -> Array:
-    """Return w, shape (legs, n), at any time of the march by a shorter last step."""
+    """Return w, shape (legs, n), at any time of the march by shorter last steps."""
     last = max(int(np.searchsorted(history.tau, tau, side="right")) - 1, 0)
     w = history.w[last]
-    length = tau - float(history.tau[last])
-    return step(history.loop, w, history.rate[last], length) if length else w
+    length = (tau - float(history.tau[last])) / _PARTS
+    for _ in range(_PARTS if length else 0):
+        w = step(history.loop, w, rate(history.loop, w)[0], length)
+    return w
 
 
 def interpolated(history: History, tau: Array) -> Array:
@@ -63,7 +68,7 @@ def deviations(loop: Loop, w: Array, x: Array) -> tuple[Array, Array]:
     """Return those of log sigma and psi at x = theta / theta_w from w (..., legs, n), (..., m)."""
     plus = w[..., 0, :] @ loop.mesh.interpolation(x).T
     minus = w[..., -1, :] @ loop.mesh.interpolation(-x).T
-    return 0.5 * (plus + minus), loop.psi_factor * (plus - minus)
+    return 0.5 * (plus + minus), psi_factor(loop.base.hopper) * (plus - minus)
 
 
 def momentum_residual(history: History, tau: float) -> float:
@@ -109,5 +114,5 @@ def _nodal_stress(loop: Loop, w: Array) -> Stress:
     """Return the stress at theta = y of all nodes, shape (n,)."""
     plus, minus = w[0], w[-1, ::-1]
     sigma = np.exp(0.5 * (plus + minus)) / loop.state.light
-    psi = loop.state.psi + loop.psi_factor * (plus - minus)
+    psi = loop.state.psi + psi_factor(loop.base.hopper) * (plus - minus)
     return stress_of(loop.base.hopper.s, sigma, psi)

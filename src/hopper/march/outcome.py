@@ -15,7 +15,8 @@ from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.march.base import Base, tilt_height
 from hopper.march.crossing import Crossing, NetVerdict, net_verdict
 from hopper.march.fields import deviations, interpolated, momentum_residual
-from hopper.march.loop import History, Report, corner_defect, make_loop, march_loop
+from hopper.march.history import History, Report, march_loop
+from hopper.march.loop import corner_defect, make_loop
 from hopper.march.net import make_net
 from hopper.march.optics import calm_slope
 from hopper.march.rays import first_crossing_of_rays

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from hopper.arrays import Array, Mask
 from hopper.march.base import base_state
 from hopper.march.crossing import lowest
-from hopper.march.equations import ray_slopes
-from hopper.march.loop import History
+from hopper.march.equations import psi_factor, ray_slopes
+from hopper.march.history import History
 
 # Change of Q in one step, over its first value, beyond which its zero is not resolved.
 _JUMP = 0.25
@@ -125,7 +125,7 @@ def _slopes(
     """Return the derivatives by y of (tau, w, Q, P) of rays at stations, shape (4, R)."""
     tau, w, q, p = values
     loop = course.history.loop
-    factor = loop.psi_factor
+    factor = psi_factor(loop.base.hopper)
     psi, light, source, n1, l0, l1, d0, d1 = course.radial[:, station]
     v, v_rate = _partner(course, tau, leg, station)
     t = np.tan(psi + factor * (w - v))

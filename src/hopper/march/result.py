@@ -11,7 +11,7 @@ from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 from hopper.march.base import Base, radial_fields
 from hopper.march.fields import deviations, interpolated, state_at
-from hopper.march.loop import History
+from hopper.march.history import History
 from hopper.march.settling import distances
 from hopper.march.tops import Top
 

@@ -7,7 +7,8 @@ import numpy as np
 from hopper.arrays import Array
 from hopper.march.base import radial_fields, tilt_height
 from hopper.march.fields import deviations, interpolated, stress_of
-from hopper.march.loop import History, Loop, jacobian
+from hopper.march.history import History
+from hopper.march.loop import Loop, jacobian
 from hopper.spectral import chebyshev
 
 # Samples per loop time, and angles on each half of the hopper.
