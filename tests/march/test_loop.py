@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 from hopper.evidence.motion import stress
+from hopper.march import history
 from hopper.march.base import base_of, radial_fields, tilt_height
 from hopper.march.fields import deviations, interpolated, momentum_residual, state_at, stress_of
 from hopper.march.history import march_loop
-from hopper.march.loop import corner_defect, jacobian, make_loop, rate, step
+from hopper.march.loop import corner_defect, jacobian, linearization, make_loop, rate, step
 from hopper.march.mapped import mesh
 from hopper.march.tops import Top, bump_of_psi, bump_of_sigma, one_sided_bump, scaled
 from hopper.stability.modes import linear_stability
@@ -133,6 +134,37 @@ def test_steps_in_tau_are_of_fourth_order():
     coarse, middle, fine = (after(steps) for steps in (100, 200, 400))
     ratio = np.abs(coarse - middle).max() / np.abs(middle - fine).max()
     assert 12 < ratio < 20
+
+
+@pytest.mark.parametrize("case", HOPPERS)
+def test_steps_of_both_kinds_agree(case, monkeypatch):
+    """Multistep steps about the linearisation, and Runge-Kutta's of all of the equations."""
+    under, top = base(*case), bump_of_sigma(0.1)
+    found = on_loop(under, top, 96, 0.2)
+    with monkeypatch.context() as short:
+        short.setattr(history, "_COURANT", history._COURANT / 2)
+        finer = on_loop(under, top, 96, 0.2)
+    monkeypatch.setattr(history, "_STABLE", 1e-12)
+    monkeypatch.setattr(history, "_EXPLICIT", history._EXPLICIT / 2)
+    other = on_loop(under, top, 96, 0.2)
+    error = np.abs(found.w[-1] - finer.w[-1]).max()
+    assert error < 2e-7
+    assert np.abs(found.w[-1] - other.w[-1]).max() < 1.5 * error
+
+
+@pytest.mark.parametrize("case", HOPPERS)
+@pytest.mark.parametrize("legs", [1, 2])
+def test_linearisation_against_differences_of_rates(case, legs):
+    loop, size = make_loop(base(*case), 24, legs), 1e-5
+    matrix = linearization(loop)
+    for place in (0, 5, 23, matrix.shape[0] - 1):
+        unit = np.zeros(matrix.shape[0])
+        unit[place] = size
+        up, down = (rate(loop, sign * unit.reshape(legs, -1))[0] for sign in (1, -1))
+        slope = (up - down).ravel() / (2 * size)
+        np.testing.assert_allclose(
+            slope, matrix[:, place], rtol=0, atol=1e-6 * np.abs(matrix).max()
+        )
 
 
 @pytest.mark.parametrize("case", HOPPERS)

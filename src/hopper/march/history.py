@@ -26,8 +26,8 @@ _COURANT, _EXPLICIT = 1.5, 2.0
 # The same for the change of speed by the deviation, whose limit is .43, and the part of it that a
 # new step is to have.
 _STABLE, _ROOM = 0.15, 0.7
-# Steps of one kind or length at least.
-_STEADY = 16
+# Steps of one kind or length at least, and the part of a step that rounding of tau may leave.
+_STEADY, _LAST = 16, 1e-6
 # Steps that N is extrapolated from, terms of the series of phi, and norms for which they do.
 _ORDER, _TERMS, _SMALL = 4, 12, 0.5
 # D or A relative to the radial field's from which on a tangency, with the lines of constant tau or
@@ -76,8 +76,7 @@ class _Stepper:
         self._fit(self.tau_end - tau, speed)
         self.steady += 1
         left = self.tau_end - tau - self.length
-        # Steps are whole parts of what is left, but for rounding.
-        after = self.tau_end - left if left > self.length / 2 else self.tau_end
+        after = self.tau_end - left if left > _LAST * self.length else self.tau_end
         if self.weights is None:
             return after, step(self.loop, w, change, self.length)
         self.past = [change.ravel() - self.linear @ w.ravel(), *self.past[: _ORDER - 1]]
