@@ -10,7 +10,7 @@ from hopper_workflow import artifacts, jobs, ranges
 from hopper.domain.coupled import coupled_borders, decay_rates, stable_up_to
 from hopper.problem import Hopper
 from hopper.von_mises.characteristics import AXIS_HYPERBOLIC, TENSION
-from hopper.von_mises.neutral import neutral_curve
+from hopper.von_mises.neutral_curve import neutral_curve
 from hopper.yield_conditions import VON_MISES
 from hopper_data.datasets import dataset
 from hopper_data.domain import COUPLED_BORDERS, COUPLED_NEUTRAL
