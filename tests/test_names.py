@@ -177,8 +177,8 @@ def results():
     from hopper.stability.transient import modal_basis
     from hopper.von_mises.high_frequency import high_frequency
     from hopper.von_mises.linearisation import coefficients as coupled_coefficients
-    from hopper.von_mises.neutral import neutral_curve as coupled_neutral_curve
     from hopper.von_mises.neutral import neutral_point
+    from hopper.von_mises.neutral_curve import neutral_curve as coupled_neutral_curve
     from hopper.von_mises.saint_venant import end_effects
     from hopper.von_mises.verdict import judge
     from hopper_data.hopper_lists import HopperList

@@ -7,9 +7,10 @@ import pytest
 
 from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.radial.solution import solve_radial
-from hopper.von_mises import neutral as module
+from hopper.von_mises import neutral_curve as module
 from hopper.von_mises.growth import resolved_growth
-from hopper.von_mises.neutral import neutral_curve, neutral_point
+from hopper.von_mises.neutral import neutral_point
+from hopper.von_mises.neutral_curve import neutral_curve
 from tests.von_mises.witnesses import REFERENCE, Shooting, cone
 
 
@@ -115,6 +116,6 @@ def test_bad_input():
 
 
 def test_cones_without_a_neutral_smooth_wall(monkeypatch):
-    monkeypatch.setattr(module, "neutral_point", lambda half_angle, phi: None)
+    monkeypatch.setattr(module, "neutral_flow", lambda half_angle, phi: None)
     with pytest.raises(ConvergenceError, match="even for a smooth wall: lower half_angle"):
         neutral_curve(radians(80), 0.1)

@@ -14,7 +14,7 @@ from scipy.linalg import lu_factor, lu_solve
 from hopper.arguments import Radians, Row, checked
 from hopper.arrays import Array, Complex
 from hopper.brief import brief
-from hopper.errors import ConvergenceError, NonPositiveStressError, NoRadialSolutionError
+from hopper.errors import ConvergenceError
 from hopper.problem import Hopper
 from hopper.radial.members import physical_member
 from hopper.radial.solution import RadialSolution, solution_of
@@ -185,19 +185,17 @@ def flow_at(
 
     Raises
     ------
-    NoRadialSolutionError
-        If there is none.
-    NonPositiveStressError
-        If the stress would not be positive.
     ConvergenceError
-        If it is not resolved.
+        If there is none, it is not resolved, or not hyperbolic on the axis.
     """
+    if not AXIS_HYPERBOLIC + MARGIN < delta < TENSION - MARGIN:
+        raise ConvergenceError(
+            f"delta = {np.degrees(delta):.6g} deg leaves hyperbolic flows; change the wall friction"
+        )
     hopper = Hopper("cone", delta, half_angle, VON_MISES)
     member = physical_member(hopper, friction_angle, start.member)
-    if member is None:
-        raise NoRadialSolutionError(f"no radial solution beside {start!r}")
-    if member.tau <= 0:
-        raise NonPositiveStressError(f"average stress is not positive beside {start!r}")
+    if member is None or member.tau <= 0:
+        raise ConvergenceError(f"no radial solution beside {start!r}")
     return solution_of(member)
 
 
@@ -230,8 +228,6 @@ def neutral_from(
         step = copysign(min(abs(step), _LARGEST_STEP), step)
         if slope and (abs(step) < _LAST_STEP or abs(here.value.real) < _PART * here.error):
             return here, slope, abs(step)
-        if not AXIS_HYPERBOLIC + MARGIN < delta + step < TENSION - MARGIN:
-            break
         delta += step
         there = here.at(flow_at(half_angle, friction_angle, delta, here.flow))
         if abs(step) > _LEAST_DIFFERENCE or not slope:

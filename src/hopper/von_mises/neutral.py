@@ -212,7 +212,7 @@ def followed_up(
     for changes in range(_CHANGES):
         found, slope, error = _neutral(start, friction_angle, delta, slope)
         delta = found.flow.hopper.delta
-        full = resolved_growth(found.flow, first=first)
+        full = resolved_near(found.flow, first)
         if not exceeded(found, full):
             frequency = found.value.imag
             point = NeutralDelta(delta, friction_angle, error, frequency, full.settled)
@@ -246,6 +246,25 @@ def exceeded(found: Followed, full: Growth) -> bool:
     if abs(other - found.value) < _SAME * abs(other):
         return False
     return other.real > found.value.real + found.error + full.error_estimate
+
+
+@checked
+def resolved_near(flow: RadialSolution, first: int | None) -> Growth:
+    """Return the supremum as :func:`resolved_growth`, beginning with a mesh that suits a neighbour.
+
+    Rounding of the finest meshes may hide the low modes.
+
+    Raises
+    ------
+    ConvergenceError
+        As :func:`resolved_growth`.
+    """
+    try:
+        return resolved_growth(flow, first=first)
+    except ConvergenceError:
+        if first is None:
+            raise
+        return resolved_growth(flow)
 
 
 @checked

@@ -16,8 +16,8 @@ from hopper.arrays import Array, Mask
 from hopper.brief import brief
 from hopper.errors import ConvergenceError, HopperError
 from hopper.values import require_angle
-from hopper.von_mises.following import Followed, both_neutral, governing
-from hopper.von_mises.growth import resolved_growth
+from hopper.von_mises.following import Followed, both_neutral, flow_at, governing
+from hopper.von_mises.growth import growth
 from hopper.von_mises.neutral import (
     NeutralDelta,
     NeutralFlow,
@@ -25,11 +25,14 @@ from hopper.von_mises.neutral import (
     first_size,
     followed_up,
     neutral_flow,
+    resolved_near,
 )
 
+# Steps, in the largest one, in which a mode that is lost is given up for another.
+_SHORT = 1 / 4
 # The least step, radians and part of the largest one; the largest change of delta in a step, in
 # steps.
-_SMALLEST_STEP, _SMALLEST_PART, _STEEPEST = 1e-4, 1 / 64, 2
+_SMALLEST_STEP, _SMALLEST_PART, _STEEPEST = 1e-4, 1 / 32, 2
 
 
 @dataclass(frozen=True)
@@ -62,7 +65,7 @@ def neutral_curve(
     """Trace the neutral curve from phi = 0 to its end, by continuation in phi.
 
     It ends where no flow is stable, or none exists, or none is resolved; the last is found to a
-    64th of the step in phi.
+    32nd of the step in phi.
 
     Parameters
     ----------
@@ -109,7 +112,8 @@ def _traced(
         phi = last.point.friction_angle + current
         if highest is not None and phi > highest * (1 + 1e-12):
             return
-        found = _following(last, phi, last.point.delta + slope * current)
+        guess = last.point.delta + slope * current
+        found = _following(last, phi, guess, restart=current <= _SHORT * step)
         change = found.point.delta - last.point.delta if found else nan
         if found is None or (abs(change) > _STEEPEST * step and current > 2 * least):
             current /= 2
@@ -119,12 +123,22 @@ def _traced(
         last, current = found, min(2 * current, step)
 
 
-def _following(last: NeutralFlow, phi: float, guess: float) -> NeutralFlow | None:
+def _following(
+    last: NeutralFlow, phi: float, guess: float, restart: bool
+) -> NeutralFlow | None:
+    """Return the next flow from what governs the last one, or else what governs at the guess."""
     first = first_size(last.growth)
     try:
         return followed_up(last.governor, phi, guess, last.slope, first)
     except HopperError:
+        if not restart:
+            return None
+    try:
+        there = flow_at(last.governor.flow.hopper.half_angle, phi, guess, last.governor.flow)
+        found = followed_up(governing(growth(there), there), phi, guess, first=first)
+    except HopperError:
         return None
+    return replace(found, changed=True)
 
 
 def _between(left: NeutralFlow, right: NeutralFlow, least: float) -> list[NeutralFlow]:
@@ -135,9 +149,9 @@ def _between(left: NeutralFlow, right: NeutralFlow, least: float) -> list[Neutra
     try:
         one, other = _corner(left, right)
         phi, delta = one.flow.friction_angle, one.flow.hopper.delta
-        if not low < phi < high:
+        if not low + least / 8 < phi < high - least / 8:
             return []
-        full = resolved_growth(one.flow, first=first_size(right.growth))
+        full = resolved_near(one.flow, first_size(right.growth))
         if exceeded(one, full) and exceeded(other, full):
             higher = followed_up(governing(full, one.flow), phi, delta, first=full.modes.size)
             return [*_between(left, higher, least), higher, *_between(higher, right, least)]
