@@ -50,7 +50,7 @@ def _edge(half_angle: float, delta: float, phi: float, points: int) -> dict[str,
     There is nothing to follow where the curve ends next to tension.
     """
     inside = TENSION - radians(1)
-    if delta >= inside:
+    if delta >= TENSION - radians(_NEXT_TO_TENSION):
         return dict.fromkeys(("delta", "phi"), np.full(points, np.nan))
     # Denser at both ends, where the edge bends.
     along = (1 - np.cos(np.pi * np.arange(1, points + 1) / points)) / 2
@@ -72,8 +72,10 @@ def _decay(
     return {"delta": deltas[kept], "phi": phi, "down": down, "up": up}
 
 
+# Degrees.
+_NEXT_TO_TENSION = 3
 # Part of the border up to which decay is resolved: beyond, modes as high as meshes go decay least.
-_UP_TO = 0.985
+_UP_TO = 0.975
 _GRID = "decay_row friction"
 TABLE = (
     *within("borders", COUPLED_BORDERS),

@@ -32,7 +32,7 @@ COUPLED_REGIONS: tuple[Kind, ...] = get_args(Kind)
 # Errors of the radial fields that leave the modes accurate.
 _FIELDS = 1e-11
 # Where resolution ends is no sharper than this; radians.
-_EDGE = 1e-3
+_EDGE = 3e-3
 
 
 @dataclass(frozen=True)
@@ -166,7 +166,7 @@ def coupled_borders(half_angle: Radians, deltas: Row) -> CoupledBorders:
 
 @checked
 def stable_edge(half_angle: Radians, deltas: Row, friction_angle: Radians) -> Array:
-    """Return the wall friction angles (radians) up to which cones are stable, each to 1e-3.
+    """Return the wall friction angles (radians) up to which cones are stable, each to 3e-3.
 
     Beyond the end of the neutral curve stable cones border on ones that are not resolved, up to
     the limit of flow. NaN where a cone is not stable at ``friction_angle``.
@@ -185,24 +185,35 @@ def stable_edge(half_angle: Radians, deltas: Row, friction_angle: Radians) -> Ar
     InvalidParameterError
         If an angle is out of range.
     """
-    found, part = np.full(deltas.size, nan), None
+    found, part = np.full(deltas.size, nan), np.full(deltas.size, nan)
     for i, delta in enumerate(deltas):
         hopper = Hopper("cone", float(delta), half_angle, VON_MISES)
         limit = flow_limit(hopper)
-        found[i] = _edge(hopper, friction_angle, limit, part and part * limit)
-        part = found[i] / limit if np.isfinite(found[i]) else None
+        guess = _continued(deltas[:i], part[:i], float(delta)) * limit
+        found[i] = _edge(hopper, friction_angle, limit, guess)
+        part[i] = found[i] / limit
     return found
 
 
-def _edge(hopper: Hopper, below: float, above: float, guess: float | None) -> float:
-    """Return the edge between a stable friction and one without a verdict or flow."""
+def _continued(x: Array, y: Array, at: float) -> float:
+    """Return y on the straight line through the last two points, NaN without any."""
+    if y.size < 2:
+        return float(y[-1]) if y.size else nan
+    return float(y[-1] + (at - x[-1]) * (y[-1] - y[-2]) / (x[-1] - x[-2]))
+
+
+def _edge(hopper: Hopper, below: float, above: float, guess: float) -> float:
+    """Return the edge between a stable friction and one without a verdict or flow.
+
+    The guess may be NaN.
+    """
 
     def stable(phi: float) -> bool:
         return judge(hopper, phi).verdict == "stable"
 
     least, reach = below, _EDGE
     # Away from the guess until the verdict changes: the next step then leads out of the bracket.
-    while guess is not None and below < guess < above:
+    while below < guess < above:
         if stable(guess):
             below, guess = guess, guess + reach
         else:
