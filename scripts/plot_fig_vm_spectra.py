@@ -56,7 +56,7 @@ def _draw_upper_strip(axis: Axes, data: xr.Dataset) -> None:
     inset.axvline(0, color="0.6", linewidth=0.6)
     _draw_modes(inset, data)
     inset.set_xlim(left, right)
-    inset.set_ylim(-0.02 * data.eigenvalue.to_numpy().imag.max(), None)
+    inset.set_ylim(np.array([-0.02, 1.05]) * data.eigenvalue.to_numpy().imag.max())
     inset.set_xticks([round(float(low), 2), 0])
     inset.set_yticks([])
     inset.tick_params(labelsize=plotting.SMALL - 1)

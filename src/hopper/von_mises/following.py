@@ -18,6 +18,7 @@ from hopper.errors import ConvergenceError
 from hopper.problem import Hopper
 from hopper.radial.members import physical_member
 from hopper.radial.solution import RadialSolution, solution_of
+from hopper.values import require_angle
 from hopper.von_mises.characteristics import AXIS_HYPERBOLIC, TENSION
 from hopper.von_mises.growth import Growth
 from hopper.von_mises.high_frequency import high_frequency
@@ -87,6 +88,17 @@ class Followed:
             raise ConvergenceError(f"mode lost near lambda = {near:.6g}; change delta")
         return Followed(flow, value, self.error, self.size, vectors)
 
+    @checked
+    def resolved(self) -> "Followed":
+        """Return the same on a mesh fine enough for it here, with its error here.
+
+        Raises
+        ------
+        ConvergenceError
+            If no mesh resolves it.
+        """
+        return _mode_near(self.flow, self.value, self.size) if self.size else self
+
 
 @checked
 def upper_strip(flow: RadialSolution) -> Followed:
@@ -102,16 +114,10 @@ def upper_strip(flow: RadialSolution) -> Followed:
     return Followed(flow, complex(lie.upper_edge, nan), lie.error_estimate, 0, empty)
 
 
-@checked
-def mode_near(flow: RadialSolution, near: complex, first: int) -> Followed:
+def _mode_near(flow: RadialSolution, near: complex, first: int) -> Followed:
     """Return the mode next to ``near`` on the first mesh of ``SIZES`` that is fine enough for it.
 
     Errors stop falling where they are rounding. ``first`` is the size to begin with.
-
-    Raises
-    ------
-    ConvergenceError
-        If no mesh resolves it.
     """
     best, before = None, None
     for size in SIZES[max(SIZES.index(first) - 1, 0) :]:
@@ -138,12 +144,12 @@ def governing(found: Growth, flow: RadialSolution) -> Followed:
     Raises
     ------
     ConvergenceError
-        As :func:`mode_near`.
+        If no mesh resolves it.
     """
     if found.governed_by == "strip":
         return upper_strip(flow)
     before = SIZES[max(SIZES.index(found.modes.size) - 3, 1)]
-    return mode_near(flow, complex(found.abscissa, found.frequency), before)
+    return _mode_near(flow, complex(found.abscissa, found.frequency), before)
 
 
 def _eigenvalue(
@@ -168,7 +174,7 @@ def _eigenvalue(
 
 
 def _quotient(matrix: Array, right: Complex, left: Complex) -> complex:
-    """Return Rayleigh's quotient: to first order an eigenvalue of a matrix by vectors of another."""
+    """Return Rayleigh's quotient, to first order an eigenvalue where vectors are another's."""
     return complex(left.conj() @ (matrix @ right) / (left.conj() @ right))
 
 
@@ -188,11 +194,12 @@ def flow_at(
     ConvergenceError
         If there is none, it is not resolved, or not hyperbolic on the axis.
     """
+    require_angle("friction_angle", friction_angle, zero_allowed=True)
+    hopper = Hopper("cone", delta, half_angle, VON_MISES)
     if not AXIS_HYPERBOLIC + MARGIN < delta < TENSION - MARGIN:
         raise ConvergenceError(
             f"delta = {np.degrees(delta):.6g} deg leaves hyperbolic flows; change the wall friction"
         )
-    hopper = Hopper("cone", delta, half_angle, VON_MISES)
     member = physical_member(hopper, friction_angle, start.member)
     if member is None or member.tau <= 0:
         raise ConvergenceError(f"no radial solution beside {start!r}")
@@ -221,6 +228,8 @@ def neutral_from(
     HopperError
         As :func:`flow_at`.
     """
+    require_angle("friction_angle", friction_angle, zero_allowed=True)
+    require_angle("delta", delta)
     half_angle = start.flow.hopper.half_angle
     here = start.at(flow_at(half_angle, friction_angle, delta, start.flow))
     step = -here.value.real / slope if slope else _FIRST_STEP
@@ -247,7 +256,10 @@ def both_neutral(
 
     Parameters
     ----------
-    one, other : Followed
+    one : Followed
+        Of a cone close by.
+    other : Followed
+        Of another one.
     place : array, shape (2,)
         A guess of delta and phi, radians.
     jacobian : array, shape (2, 2)
@@ -260,20 +272,20 @@ def both_neutral(
     HopperError
         As :func:`flow_at`.
     """
-    half_angle, flow, jacobian = one.flow.hopper.half_angle, one.flow, jacobian.copy()
-    values = step = np.zeros(2)
+    half_angle, flow, slopes = one.flow.hopper.half_angle, one.flow, jacobian.copy()
+    step = np.zeros(2)
     for iteration in range(_STEPS):
         flow = flow_at(half_angle, float(place[1]), float(place[0]), flow)
         one, other = one.at(flow), other.at(flow)
         values = np.array([one.value.real, other.value.real])
         if iteration:
-            jacobian += np.outer(values, step) / (step @ step)
-        step = -np.linalg.solve(jacobian, values)
+            slopes += np.outer(values, step) / (step @ step)
+        step = -np.linalg.solve(slopes, values)
         if np.abs(step).max() < _CORNER:
             return one, other
         if np.abs(step).max() > _LARGEST_STEP:
             break
-        place = place + step
+        place = np.add(place, step)
     raise ConvergenceError(
         f"no corner of the neutral curve near phi = {np.degrees(place[1]):.6g} deg"
     )

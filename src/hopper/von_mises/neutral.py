@@ -18,7 +18,7 @@ from hopper.problem import Hopper
 from hopper.radial.solution import RadialSolution, solve_radial
 from hopper.values import require_angle
 from hopper.von_mises.characteristics import AXIS_HYPERBOLIC, TENSION
-from hopper.von_mises.following import MARGIN, Followed, governing, mode_near, neutral_from
+from hopper.von_mises.following import MARGIN, Followed, governing, neutral_from
 from hopper.von_mises.growth import Governor, Growth, growth, resolved_growth
 from hopper.von_mises.modes import SIZES
 from hopper.yield_conditions import VON_MISES
@@ -126,6 +126,8 @@ def neutral_flow(half_angle: Radians, friction_angle: Radians) -> NeutralFlow | 
 
     Raises as :func:`neutral_point`.
     """
+    require_angle("half_angle", half_angle)
+    require_angle("friction_angle", friction_angle, zero_allowed=True)
     bracket = _scan(half_angle, friction_angle)
     if bracket is None:
         return None
@@ -209,6 +211,8 @@ def followed_up(
     HopperError
         As :func:`hopper.von_mises.following.flow_at`.
     """
+    require_angle("friction_angle", friction_angle, zero_allowed=True)
+    require_angle("delta", delta)
     for changes in range(_CHANGES):
         found, slope, error = _neutral(start, friction_angle, delta, slope)
         delta = found.flow.hopper.delta
@@ -227,15 +231,13 @@ def followed_up(
 def _neutral(
     start: Followed, friction_angle: float, delta: float, slope: float | None
 ) -> tuple[Followed, float, float]:
-    """Return a mode where it is neutral on a mesh that resolves it, its slope, and delta's error."""
+    """Return a mode where it is neutral on a mesh fine enough, its slope, and delta's error."""
     found, slope, step = neutral_from(start, friction_angle, delta, slope)
-    while found.size:
-        sure = mode_near(found.flow, found.value, found.size)
-        again = sure.size != found.size
-        found = sure
-        if not again:
-            break
-        found, slope, step = neutral_from(sure, friction_angle, found.flow.hopper.delta, slope)
+    sure = found.resolved()
+    while sure.size != found.size:
+        found, slope, step = neutral_from(sure, friction_angle, sure.flow.hopper.delta, slope)
+        sure = found.resolved()
+    found = sure
     return found, slope, found.error / abs(slope) + step
 
 

@@ -32,7 +32,7 @@ from hopper.von_mises.neutral import (
 _SHORT = 1 / 4
 # The least step, radians and part of the largest one; the largest change of delta in a step, in
 # steps.
-_SMALLEST_STEP, _SMALLEST_PART, _STEEPEST = 1e-4, 1 / 32, 2
+_SMALLEST_STEP, _SMALLEST_PART, _STEEPEST = 1e-4, 1 / 64, 2
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ def neutral_curve(
     """Trace the neutral curve from phi = 0 to its end, by continuation in phi.
 
     It ends where no flow is stable, or none exists, or none is resolved; the last is found to a
-    32nd of the step in phi.
+    64th of the step in phi.
 
     Parameters
     ----------
@@ -83,6 +83,7 @@ def neutral_curve(
     ConvergenceError
         If not even the smooth wall has a neutral delta.
     """
+    require_angle("half_angle", half_angle)
     if highest is not None:
         require_angle("highest", highest, zero_allowed=True)
     first = neutral_flow(half_angle, 0.0)
@@ -123,9 +124,7 @@ def _traced(
         last, current = found, min(2 * current, step)
 
 
-def _following(
-    last: NeutralFlow, phi: float, guess: float, restart: bool
-) -> NeutralFlow | None:
+def _following(last: NeutralFlow, phi: float, guess: float, restart: bool) -> NeutralFlow | None:
     """Return the next flow from what governs the last one, or else what governs at the guess."""
     first = first_size(last.growth)
     try:
