@@ -77,7 +77,7 @@ def draw_borders(axis: Axes, data: xr.Dataset) -> None:
               label=r"$\psi$ = 45°: flow ends")  # fmt: skip
     settled = (data.neutral_settled == "yes").to_numpy()
     axis.plot(data.neutral_delta, data.neutral_phi, color="black", linewidth=0.7,
-              label="neutral, higher modes not excluded")  # fmt: skip
+              label="neutral, not settled")  # fmt: skip
     # A line between two settled points.
     for part in np.split(np.arange(settled.size), np.flatnonzero(np.diff(settled)) + 1):
         if settled[part[0]]:

@@ -26,7 +26,7 @@ from hopper.von_mises.modes import SIZES, matrix_on, rounding_on
 from hopper.von_mises.strips import strips
 from hopper.yield_conditions import VON_MISES
 
-# Inverse iterations with one shift, shifts, and the relative change of an eigenvalue that ends them.
+# Inverse iterations with one shift, shifts, and the relative change of an eigenvalue at the end.
 _ITERATIONS, _SHIFTS, _SAME = 12, 3, 1e-14
 # The shift is off its eigenvalue by this part, as the matrix is singular there.
 _OFF = 1e-6
