@@ -59,7 +59,7 @@ def _draw_upper_strip(axis: Axes, data: xr.Dataset) -> None:
     inset.set_ylim(np.array([-0.02, 1.05]) * data.eigenvalue.to_numpy().imag.max())
     inset.set_xticks([round(float(low), 2), 0])
     inset.set_yticks([])
-    inset.tick_params(labelsize=plotting.SMALL - 1)
+    inset.tick_params(labelsize=plotting.SMALL)
     inset.set_title("upper strip", fontsize=plotting.SMALL)
 
 
