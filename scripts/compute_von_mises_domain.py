@@ -7,10 +7,10 @@ import numpy as np
 import xarray as xr
 
 from hopper_workflow import artifacts, jobs, ranges
-from hopper.domain.coupled import coupled_borders, decay_rates, stable_up_to
+from hopper.domain.coupled import coupled_borders, decay_rates, stable_edge
 from hopper.problem import Hopper
 from hopper.von_mises.characteristics import AXIS_HYPERBOLIC, TENSION
-from hopper.von_mises.neutral import neutral_curve
+from hopper.von_mises.neutral_curve import neutral_curve
 from hopper.yield_conditions import VON_MISES
 from hopper_data.datasets import dataset
 from hopper_data.domain import COUPLED_BORDERS, COUPLED_NEUTRAL
@@ -50,11 +50,12 @@ def _edge(half_angle: float, delta: float, phi: float, points: int) -> dict[str,
     There is nothing to follow where the curve ends next to tension.
     """
     inside = TENSION - radians(1)
-    if delta >= inside:
+    if delta >= TENSION - radians(_NEXT_TO_TENSION):
         return dict.fromkeys(("delta", "phi"), np.full(points, np.nan))
-    deltas = delta + (inside - delta) * np.arange(1, points + 1) / points
-    hoppers = [Hopper("cone", float(at), half_angle, VON_MISES) for at in deltas]
-    return {"delta": deltas, "phi": np.array([stable_up_to(hopper, phi) for hopper in hoppers])}
+    # Denser at both ends, where the edge bends.
+    along = (1 - np.cos(np.pi * np.arange(1, points + 1) / points)) / 2
+    deltas = delta + (inside - delta) * along
+    return {"delta": deltas, "phi": stable_edge(half_angle, deltas, phi)}
 
 
 def _decay(
@@ -71,8 +72,10 @@ def _decay(
     return {"delta": deltas[kept], "phi": phi, "down": down, "up": up}
 
 
-# Part of the border up to which the law of high frequency is resolved.
-_UP_TO = 0.998
+# Degrees.
+_NEXT_TO_TENSION = 3
+# Part of the border up to which decay is resolved: beyond, modes as high as meshes go decay least.
+_UP_TO = 0.975
 _GRID = "decay_row friction"
 TABLE = (
     *within("borders", COUPLED_BORDERS),

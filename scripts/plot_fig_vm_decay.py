@@ -9,6 +9,8 @@ from matplotlib.figure import Figure
 
 from hopper_workflow import artifacts, jobs, plotting
 
+# Degrees of delta.
+_LABELS_FROM_END = 1.0
 _LEVELS = (0.5, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10)
 
 
@@ -37,7 +39,12 @@ def _contours(axis: Axes, data: xr.Dataset, name: str) -> None:
     delta = np.broadcast_to(data.decay_delta.values[:, None], phi.shape)
     axis.contourf(delta, phi, rates, levels=_LEVELS, cmap="viridis", extend="both", alpha=0.55)
     lines = axis.contour(delta, phi, rates, levels=_LEVELS, colors="black", linewidths=0.8)
-    axis.clabel(lines, fontsize=plotting.SMALL, fmt="%g")
+    inside = float(data.axis_hyperbolic) - _LABELS_FROM_END
+    for label in axis.clabel(lines, fontsize=plotting.SMALL, fmt="%g", inline=False):
+        label.set(rotation=0, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6})
+        # Contours crowd at the border.
+        if label.get_position()[0] > inside:
+            label.remove()
     axis.plot(data.delta, data.sonic_phi, color="black", linestyle="--", linewidth=1)
     axis.set_xlim(float(data.decay_delta.min()), float(data.axis_hyperbolic))
     axis.set_ylim(bottom=0)

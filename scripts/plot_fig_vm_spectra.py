@@ -24,11 +24,9 @@ def draw(spectra: Sequence[str]) -> Figure:
                 axis.axvspan(low, high, color="0.78", label="strips")
         elif "ring_spacing" in data:
             _draw_ladder(axis, float(data.ring_spacing), modes)
-        axis.plot(modes.real, modes.imag, "o", color=plotting.BLUE, markersize=2.2, label="modes")
-        if "root" in data:
-            roots = data.root.to_numpy()
-            axis.plot(roots.real, roots.imag, "o", color=plotting.ORANGE, markersize=4.6,
-                      mfc="none", mew=0.7, label="law of high frequency")  # fmt: skip
+        _draw_modes(axis, data)
+        if "strips" in data:
+            _draw_upper_strip(axis, data)
         axis.plot(0, 0, "s", color="black", markersize=3.2, label=r"flow rate, $\lambda$ = 0")
         friction = rf"$\mu$ = {plotting.parameters_of(data)['mu']:g}"
         axis.set_title(f"{kind}, {friction}\n{plotting.hopper_of(data)}")
@@ -38,6 +36,31 @@ def draw(spectra: Sequence[str]) -> Figure:
     axes[0].set_ylabel(r"Im $\lambda$")
     plotting.below(figure, plotting.all_keys(axes), 3)
     return figure
+
+
+def _draw_modes(axis: Axes, data: xr.Dataset) -> None:
+    modes = data.eigenvalue.to_numpy()
+    axis.plot(modes.real, modes.imag, "o", color=plotting.BLUE, markersize=1.8, label="modes")
+    if "root" in data:
+        roots = data.root.to_numpy()
+        axis.plot(roots.real, roots.imag, "o", color=plotting.ORANGE, markersize=4,
+                  mfc="none", mew=0.6, label="law of high frequency")  # fmt: skip
+
+
+def _draw_upper_strip(axis: Axes, data: xr.Dataset) -> None:
+    """Draw the upper strip again, wide enough to tell its edges from the modes in it."""
+    low, high = data.strips.values[-1]
+    left, right = low - (high - low), max(high, 0.0) + (high - low) / 2
+    inset = axis.inset_axes((0.09, 0.3, 0.38, 0.6))
+    inset.axvspan(low, high, color="0.78")
+    inset.axvline(0, color="0.6", linewidth=0.6)
+    _draw_modes(inset, data)
+    inset.set_xlim(left, right)
+    inset.set_ylim(np.array([-0.02, 1.05]) * data.eigenvalue.to_numpy().imag.max())
+    inset.set_xticks([round(float(low), 2), 0])
+    inset.set_yticks([])
+    inset.tick_params(labelsize=plotting.SMALL)
+    inset.set_title("upper strip", fontsize=plotting.SMALL)
 
 
 def _draw_rays(axis: Axes, data: xr.Dataset, top: float) -> None:

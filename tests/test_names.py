@@ -175,10 +175,11 @@ def results():
     from hopper.stability.paper_frame import coefficients
     from hopper.stability.tilted import tilted_coefficients
     from hopper.stability.transient import modal_basis
+    from hopper.von_mises.following import upper_strip
     from hopper.von_mises.high_frequency import high_frequency
     from hopper.von_mises.linearisation import coefficients as coupled_coefficients
-    from hopper.von_mises.neutral import neutral_curve as coupled_neutral_curve
-    from hopper.von_mises.neutral import neutral_point
+    from hopper.von_mises.neutral import neutral_flow, neutral_point
+    from hopper.von_mises.neutral_curve import neutral_curve as coupled_neutral_curve
     from hopper.von_mises.saint_venant import end_effects
     from hopper.von_mises.verdict import judge
     from hopper_data.hopper_lists import HopperList
@@ -249,7 +250,8 @@ def results():
         coupled_borders(radians(10), np.array([0.5])), sweep_coupled(hard, np.array([0.1])),
         effects, effects.rays, high_frequency(elliptic),
         *coupled_coefficients(von_mises, [von_mises.member.grid]),
-        neutral_point(radians(10), 0.1), coupled_neutral_curve(radians(10), 0.1, 0.05),
+        neutral_point(radians(10), 0.1), neutral_flow(radians(10), 0.1),
+        upper_strip(hopper.solve_radial(hard, 0.1)), coupled_neutral_curve(radians(10), 0.1, 0.05),
     ]  # fmt: skip
     assert all(found)
     return {type(item).__name__: item for item in found}

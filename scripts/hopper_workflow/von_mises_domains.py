@@ -75,8 +75,14 @@ def draw_borders(axis: Axes, data: xr.Dataset) -> None:
               label="above: data on slanted surfaces")  # fmt: skip
     axis.plot(delta, data.limit_phi, color=plotting.PURPLE, linestyle="-.",
               label=r"$\psi$ = 45°: flow ends")  # fmt: skip
-    axis.plot(data.neutral_delta, data.neutral_phi, color="black", linewidth=1.6,
-              label="neutral stability")  # fmt: skip
+    settled = (data.neutral_settled == "yes").to_numpy()
+    axis.plot(data.neutral_delta, data.neutral_phi, color="black", linewidth=0.7,
+              label="neutral, not settled")  # fmt: skip
+    # A line between two settled points.
+    for part in np.split(np.arange(settled.size), np.flatnonzero(np.diff(settled)) + 1):
+        if settled[part[0]]:
+            axis.plot(data.neutral_delta[part], data.neutral_phi[part], color="black",
+                      linewidth=1.6, label="neutral stability")  # fmt: skip
 
 
 def mark_unresolved(axis: Axes, cells: xr.Dataset) -> None:

@@ -9,7 +9,7 @@ from hopper.domain.coupled import (
     COUPLED_REGIONS,
     coupled_borders,
     decay_rates,
-    stable_up_to,
+    stable_edge,
     sweep_coupled,
 )
 from hopper.errors import InvalidParameterError
@@ -68,13 +68,14 @@ def test_decay_rates_are_those_of_the_reference():
     assert up[1] == pytest.approx(known["decay_up"], abs=1e-8)
 
 
-def test_stable_up_to():
-    phi = radians(31)
-    hopper = cone(50, 10)
-    edge = stable_up_to(hopper, phi)
-    assert judge(hopper, edge).verdict == "stable"
-    assert judge(hopper, edge + 1.1e-3).verdict == "not_converged"
-    assert isnan(stable_up_to(cone(50, 30), radians(10)))
+def test_stable_edge():
+    # The second and third edge are found from their neighbours.
+    deltas, phi = np.radians([50.0, 51, 51.5]), radians(31)
+    edges = stable_edge(radians(10), deltas, phi)
+    for delta, edge in zip((50, 51, 51.5), edges, strict=True):
+        assert judge(cone(delta, 10), float(edge)).verdict == "stable"
+        assert judge(cone(delta, 10), float(edge) + 3.1e-3).verdict == "not_converged"
+    assert isnan(stable_edge(radians(30), np.radians([50.0]), radians(10))[0])
 
 
 def test_bad_sweeps_are_refused():

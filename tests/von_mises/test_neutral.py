@@ -7,9 +7,10 @@ import pytest
 
 from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.radial.solution import solve_radial
-from hopper.von_mises import neutral as module
+from hopper.von_mises import neutral_curve as module
 from hopper.von_mises.growth import resolved_growth
-from hopper.von_mises.neutral import neutral_curve, neutral_point
+from hopper.von_mises.neutral import neutral_point
+from hopper.von_mises.neutral_curve import neutral_curve
 from tests.von_mises.witnesses import REFERENCE, Shooting, cone
 
 
@@ -97,6 +98,19 @@ def test_curve_goes_through_the_points():
     assert curve.frequency[2] == pytest.approx(alone.frequency, abs=1e-7)
 
 
+def test_corners_are_roots_of_two_modes():
+    # From 14 to 15 deg the second complex mode takes over from the first.
+    curve = neutral_curve(radians(10), radians(1), highest=radians(15))
+    (corner,) = np.flatnonzero(np.abs(np.degrees(curve.friction_angle) % 1 - 0.5) < 0.499)
+    delta, phi = curve.delta[corner], curve.friction_angle[corner]
+    solution = solve_radial(cone(degrees(delta), 10), phi)
+    roots = Shooting(solution).roots([21.77j, 58.195j])
+    assert np.all(np.abs(roots.real) < 1e-6)
+    # It does not depend on the steps.
+    other = neutral_curve(radians(10), radians(2.1), highest=radians(16.8))
+    assert np.min(np.abs(other.friction_angle - phi)) < 1e-7
+
+
 def point(half_angle, phi, guess=None):
     """A neutral point that exists, angles in degrees."""
     found = neutral_point(radians(half_angle), radians(phi), guess)
@@ -115,6 +129,6 @@ def test_bad_input():
 
 
 def test_cones_without_a_neutral_smooth_wall(monkeypatch):
-    monkeypatch.setattr(module, "neutral_point", lambda half_angle, phi: None)
+    monkeypatch.setattr(module, "neutral_flow", lambda half_angle, phi: None)
     with pytest.raises(ConvergenceError, match="even for a smooth wall: lower half_angle"):
         neutral_curve(radians(80), 0.1)

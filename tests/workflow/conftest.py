@@ -68,7 +68,7 @@ COARSE: dict[str, Any] = {
     "von_mises.map.delta_deg.points": 5,
     "von_mises.map.phi_deg.points": 4,
     "von_mises.domain.border_points": 4,
-    "von_mises.domain.neutral_step_deg": 5,
+    "von_mises.domain.neutral_step_deg": 16,
     "von_mises.domain.edge_points": 1,
     "von_mises.domain.decay": {"rows": 4, "frictions": 3},
     "fig_vm_spectra.half_nodes": 24,

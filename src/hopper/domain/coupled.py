@@ -32,7 +32,7 @@ COUPLED_REGIONS: tuple[Kind, ...] = get_args(Kind)
 # Errors of the radial fields that leave the modes accurate.
 _FIELDS = 1e-11
 # Where resolution ends is no sharper than this; radians.
-_EDGE = 1e-3
+_EDGE = 3e-3
 
 
 @dataclass(frozen=True)
@@ -165,28 +165,64 @@ def coupled_borders(half_angle: Radians, deltas: Row) -> CoupledBorders:
 
 
 @checked
-def stable_up_to(hopper: Hopper, friction_angle: Radians) -> float:
-    """Return the wall friction angle (radians) up to which a cone is stable, to 1e-3.
+def stable_edge(half_angle: Radians, deltas: Row, friction_angle: Radians) -> Array:
+    """Return the wall friction angles (radians) up to which cones are stable, each to 3e-3.
 
     Beyond the end of the neutral curve stable cones border on ones that are not resolved, up to
-    the limit of flow. NaN if the cone is not stable at ``friction_angle``.
+    the limit of flow. NaN where a cone is not stable at ``friction_angle``.
+
+    Parameters
+    ----------
+    half_angle : float
+        theta_w, radians.
+    deltas : array, shape (n,)
+        Close enough that the part of the limit of flow that is stable differs little.
+    friction_angle : float
+        Radians; stable for all of them.
 
     Raises
     ------
     InvalidParameterError
-        As :func:`sweep_coupled`.
+        If an angle is out of range.
+    """
+    found, part = np.full(deltas.size, nan), np.full(deltas.size, nan)
+    for i, delta in enumerate(deltas):
+        hopper = Hopper("cone", float(delta), half_angle, VON_MISES)
+        limit = flow_limit(hopper)
+        guess = _continued(deltas[:i], part[:i], float(delta)) * limit
+        found[i] = _edge(hopper, friction_angle, limit, guess)
+        part[i] = found[i] / limit
+    return found
+
+
+def _continued(x: Array, y: Array, at: float) -> float:
+    """Return y on the straight line through the last two points, NaN without any."""
+    if y.size < 2:
+        return float(y[-1]) if y.size else nan
+    return float(y[-1] + (at - x[-1]) * (y[-1] - y[-2]) / (x[-1] - x[-2]))
+
+
+def _edge(hopper: Hopper, below: float, above: float, guess: float) -> float:
+    """Return the edge between a stable friction and one without a verdict or flow.
+
+    The guess may be NaN.
     """
 
     def stable(phi: float) -> bool:
         return judge(hopper, phi).verdict == "stable"
 
-    if not stable(friction_angle):
-        return nan
-    below, above = friction_angle, flow_limit(hopper)
+    least, reach = below, _EDGE
+    # Away from the guess until the verdict changes: the next step then leads out of the bracket.
+    while below < guess < above:
+        if stable(guess):
+            below, guess = guess, guess + reach
+        else:
+            above, guess = guess, guess - reach
+        reach *= 2
     while above - below > _EDGE:
         middle = (below + above) / 2
         below, above = (middle, above) if stable(middle) else (below, middle)
-    return below
+    return below if below > least or stable(below) else nan
 
 
 @checked

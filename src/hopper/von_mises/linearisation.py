@@ -30,6 +30,7 @@ S, Z, U are even in theta, Y, W odd. At the wall W = 0 and, by (2.15), Y = s q Z
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import sqrt
 
 import numpy as np
@@ -67,12 +68,12 @@ class Coefficients:
 
     __repr__ = brief("s", "c", "q", "l", "h")
 
-    @property
+    @cached_property
     def tilt(self) -> Array:
         """Minus the mean slope dt/dtheta of the four characteristics, sqrt(3) q / (2 c)."""
         return sqrt(3) / 2 * self.q / self.c
 
-    @property
+    @cached_property
     def stress_rate(self) -> Array:
         """Factors of lambda S and lambda Y in the momentum equations in tilted time, (4, n).
 

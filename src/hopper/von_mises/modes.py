@@ -112,12 +112,17 @@ def modes_on(solution: RadialSolution, size: int) -> ResolvedModes:
     before = SIZES[_index(size) - 1]
     coarse, fine = upper_eigenvalues(solution, before), upper_eigenvalues(solution, size)
     change = np.maximum.accumulate(partner_changes(fine, coarse))
-    cancellation = coefficients_on(solution, size).cancellation
-    rounding = _ROUNDING * np.finfo(float).eps * size**2 * sqrt(cancellation)
-    error = change + rounding
+    error = change + rounding_on(solution, size)
     count = int(np.searchsorted(error, _RESOLVED, side="right"))
     kept = fine[:count]
     return ResolvedModes(kept, error[:count] * np.maximum(1, np.abs(kept)), size)
+
+
+@checked
+def rounding_on(solution: RadialSolution, size: int) -> float:
+    """Return the relative error of eigenvalues of a mesh by rounding."""
+    cancellation = coefficients_on(solution, size).cancellation
+    return _ROUNDING * float(np.finfo(float).eps) * size**2 * sqrt(cancellation)
 
 
 def _index(size: int) -> int:
@@ -145,12 +150,17 @@ def upper_eigenvalues(solution: RadialSolution, size: int) -> Complex:
 
     Without that of the flow rate. Errors as :func:`hopper.von_mises.collocation.mode_matrix`.
     """
-    grid = half_grid(size, solution.hopper.half_angle)
-    matrix = without_flow_rate(assemble(grid, coefficients_on(solution, size)))
-    values = np.linalg.eigvals(matrix).astype(np.complex128)
+    values = np.linalg.eigvals(matrix_on(solution, size)).astype(np.complex128)
     upper = by_modulus(values[values.imag >= 0])
     upper.flags.writeable = False
     return upper
+
+
+@checked
+def matrix_on(solution: RadialSolution, size: int) -> Array:
+    """Return the matrix of the modes but that of the flow rate, shape (4 n - 3, 4 n - 3)."""
+    grid = half_grid(size, solution.hopper.half_angle)
+    return without_flow_rate(assemble(grid, coefficients_on(solution, size)))
 
 
 @checked

@@ -1,42 +1,39 @@
 """The neutral curve of von Mises cones: sup Re(lambda) = 0 between unstable and stable delta.
 
 At a given wall friction a hyperbolic flow is stable above a neutral delta, which lies between the
-borders 35.26 and 60 deg of hyperbolic flow on the axis, or nowhere.
+borders 35.26 and 60 deg of hyperbolic flow on the axis, or nowhere. It is the largest of the deltas
+at which a mode or the upper strip is neutral: one of them is followed to its own, and where others
+are then above 0, the highest of these, until none is.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from math import isnan, radians
 
 import numpy as np
-from scipy.optimize import brentq
 
-from hopper.arguments import Positive, Radians, checked
-from hopper.arrays import Array, Mask
+from hopper.arguments import Radians, checked
 from hopper.brief import brief
 from hopper.errors import ConvergenceError, HopperError
 from hopper.problem import Hopper
 from hopper.radial.solution import RadialSolution, solve_radial
 from hopper.values import require_angle
 from hopper.von_mises.characteristics import AXIS_HYPERBOLIC, TENSION
-from hopper.von_mises.growth import Governor, Growth, growth, growth_of, resolved_growth
-from hopper.von_mises.high_frequency import high_frequency
-from hopper.von_mises.modes import SIZES, low_modes, modes_on
+from hopper.von_mises.following import MARGIN, Followed, governing, neutral_from
+from hopper.von_mises.growth import Governor, Growth, growth, resolved_growth
+from hopper.von_mises.modes import SIZES
 from hopper.yield_conditions import VON_MISES
 
-# Radians. Points of a scan; distance from the borders, where the laws become singular; first and
-# largest distance from a guess at which the other sign is looked for.
+# Points of a scan, radians.
 SCAN: tuple[float, ...] = tuple(
     AXIS_HYPERBOLIC + radians(step)
     for step in (0.02, 0.1, 0.4, 1.2, 2.5, 4.5, 7, 10, 14, 18, 21.5, 24.7)
 )
-_MARGIN = 1e-5
-_FIRST_REACH, _LAST_REACH = 2e-4, 0.1
-_ROOT_TOLERANCE = 1e-13
-_DIFFERENCE = 1e-5
-_SMALLEST_STEP = 1e-4
-# Relative distance within which eigenvalues of two meshes are one mode, well resolved.
-_SAME = 1e-8
+# Radians: largest distance from a guess, width of the bracket in which a mode is followed, and the
+# least one.
+_REACH, _NARROW, _NARROWEST = 0.1, 0.02, 1e-7
+# Relative distance within which eigenvalues are one mode.
+_SAME = 1e-5
+_CHANGES = 20
 
 
 @dataclass(frozen=True)
@@ -52,8 +49,6 @@ class NeutralDelta:
         Im(lambda) of the neutral mode; NaN where the strip of high frequency is neutral.
     settled : bool
         Whether the test of resolution expects no mode above 0 here.
-    size : int
-        Half nodes.
     """
 
     delta: float
@@ -61,7 +56,6 @@ class NeutralDelta:
     error_estimate: float
     frequency: float
     settled: bool
-    size: int
 
     __repr__ = brief("delta deg", "friction_angle deg", "error_estimate deg", "frequency")
 
@@ -95,56 +89,91 @@ def neutral_point(
     require_angle("friction_angle", friction_angle, zero_allowed=True)
     if guess is not None:
         require_angle("guess", guess)
-    found = None if guess is None else _near(half_angle, friction_angle, guess, None)
-    if found is not None:
-        return found
-    bracket = _scan(_quick(half_angle, friction_angle, None))
-    return _located(half_angle, friction_angle, bracket) if bracket else None
+    found = None if guess is None else _near(half_angle, friction_angle, guess)
+    found = found or neutral_flow(half_angle, friction_angle)
+    return found.point if found else None
 
 
-def _near(
-    half_angle: float, friction_angle: float, guess: float, size: int | None
-) -> NeutralDelta | None:
-    """Return the neutral point next to a guess, None if there is none or it is not resolved."""
-    bracket = _around(_quick(half_angle, friction_angle, size), guess)
-    return _located(half_angle, friction_angle, bracket) if bracket else None
+@dataclass(frozen=True)
+class NeutralFlow:
+    """A neutral point with what is neutral there.
+
+    Attributes
+    ----------
+    point : NeutralDelta
+    governor : Followed
+        The mode or strip, at the neutral flow.
+    slope : float
+        d Re(lambda) / d delta of it, 1/radians.
+    growth : Growth
+        What the test of resolution found there.
+    changed : bool
+        Whether the mode that was followed here is not the one that governs.
+    """
+
+    point: NeutralDelta
+    governor: Followed
+    slope: float
+    growth: Growth
+    changed: bool
+
+    __repr__ = brief("point", "changed")
 
 
-def _quick(half_angle: float, friction_angle: float, size: int | None) -> Callable[[float], Growth]:
-    def at(delta: float) -> Growth:
-        return growth(_flow(half_angle, friction_angle, delta), first=size)
+@checked
+def neutral_flow(half_angle: Radians, friction_angle: Radians) -> NeutralFlow | None:
+    """Return the neutral flow at a wall friction by a scan of delta, None if there is none.
 
-    return at
+    Raises as :func:`neutral_point`.
+    """
+    require_angle("half_angle", half_angle)
+    require_angle("friction_angle", friction_angle, zero_allowed=True)
+    bracket = _scan(half_angle, friction_angle)
+    if bracket is None:
+        return None
+    low, high = bracket
+    while True:
+        if high - low < _NARROW:
+            try:
+                start = _flow(half_angle, friction_angle, low)
+                found = followed_up(governing(growth(start), start), friction_angle, low)
+                if found.point.delta < high:
+                    return found
+            except HopperError:
+                if high - low < _NARROWEST:
+                    raise
+        middle = (low + high) / 2
+        if high - low < _NARROWEST:
+            raise ConvergenceError(
+                f"neutral point not resolved near delta = {np.degrees(middle):.6g} deg; change the "
+                "wall friction"
+            )
+        unstable = growth(_flow(half_angle, friction_angle, middle)).abscissa > 0
+        low, high = (middle, high) if unstable else (low, middle)
+
+
+def _near(half_angle: float, friction_angle: float, guess: float) -> NeutralFlow | None:
+    """Return the neutral flow next to a guess, None if there is none or it is not resolved."""
+    if not AXIS_HYPERBOLIC + MARGIN < guess < TENSION - MARGIN:
+        return None
+    try:
+        start = _flow(half_angle, friction_angle, guess)
+        found = followed_up(governing(growth(start), start), friction_angle, guess)
+    except HopperError:
+        return None
+    return found if abs(found.point.delta - guess) < _REACH else None
 
 
 def _flow(half_angle: float, friction_angle: float, delta: float) -> RadialSolution:
     return solve_radial(Hopper("cone", delta, half_angle, VON_MISES), friction_angle)
 
 
-def _around(at: Callable[[float], Growth], guess: float) -> tuple[float, float] | None:
-    """Return a bracket next to a guess; the abscissa falls with delta."""
-    low, high = AXIS_HYPERBOLIC + _MARGIN, TENSION - _MARGIN
-    reach, there = _FIRST_REACH, guess
-    try:
-        here = at(guess).abscissa if low < guess < high else 0.0
-        while here and reach < _LAST_REACH:
-            there = guess + reach if here > 0 else guess - reach
-            if not low < there < high:
-                break
-            if at(there).abscissa * here <= 0:
-                return min(guess, there), max(guess, there)
-            reach *= 4
-    except HopperError:
-        pass
-    return None
-
-
-def _scan(at: Callable[[float], Growth]) -> tuple[float, float] | None:
+def _scan(half_angle: float, friction_angle: float) -> tuple[float, float] | None:
     """Return an unstable and a stable delta next to each other; None if there are none."""
     unstable = None
     for delta in SCAN:
         try:
-            value = at(delta).abscissa
+            value = growth(_flow(half_angle, friction_angle, delta)).abscissa
         except HopperError:
             continue
         if value > 0:
@@ -154,145 +183,93 @@ def _scan(at: Callable[[float], Growth]) -> tuple[float, float] | None:
     return None
 
 
-def _located(
-    half_angle: float, friction_angle: float, bracket: tuple[float, float]
-) -> NeutralDelta:
-    """Find the root on one mesh, and again on finer ones where those show higher modes."""
-    middle = _flow(half_angle, friction_angle, sum(bracket) / 2)
-    size = low_modes(middle).size
-    # One mesh further the errors of the low modes are rounding.
-    size = SIZES[min(SIZES.index(size) + 1, len(SIZES) - 1)]
-    at = _on_mesh(half_angle, friction_angle, size)
-    while True:
-        delta = _root(at, bracket)
-        found = at(delta)
-        flow = _flow(half_angle, friction_angle, delta)
-        full = resolved_growth(flow, first=size)
-        higher = full.abscissa - found.abscissa > full.error_estimate + found.error_estimate
-        if not higher or full.modes.size == size:
-            break
-        size = _size_for(flow, full, size)
-        at = _on_mesh(half_angle, friction_angle, size)
-        wider = _around(at, delta)
-        if wider is None:
-            break
-        bracket = wider
-    slope = (at(delta + _DIFFERENCE).abscissa - at(delta - _DIFFERENCE).abscissa) / 2 / _DIFFERENCE
-    error = found.error_estimate / abs(slope) + _ROOT_TOLERANCE
-    settled = full.settled and not higher
-    return NeutralDelta(delta, friction_angle, error, found.frequency, settled, size)
-
-
-def _root(at: Callable[[float], Growth], bracket: tuple[float, float]) -> float:
-    """Return the root in a bracket of another mesh; next to it where this one has none there."""
-    if at(bracket[0]).abscissa * at(bracket[1]).abscissa > 0:
-        near = _around(at, sum(bracket) / 2)
-        if near is None:
-            raise ConvergenceError(
-                f"neutral point not resolved near delta = {np.degrees(bracket[0]):.6g} deg: two "
-                "meshes differ on the modes there; change the wall friction"
-            )
-        bracket = near
-    return float(brentq(lambda delta: at(delta).abscissa, *bracket, xtol=_ROOT_TOLERANCE))
-
-
-def _size_for(flow: RadialSolution, full: Growth, size: int) -> int:
-    """Return the first mesh beyond ``size`` that resolves the mode that governs ``full``."""
-    governing = full.abscissa + 1j * full.frequency
-    for finer in SIZES[SIZES.index(size) + 1 : SIZES.index(full.modes.size)]:
-        modes = modes_on(flow, finer)
-        good = modes.errors < _SAME * abs(governing)
-        if np.any(good & (np.abs(modes.eigenvalues - governing) < _SAME * abs(governing))):
-            return finer
-    return full.modes.size
-
-
-def _on_mesh(half_angle: float, friction_angle: float, size: int) -> Callable[[float], Growth]:
-    """Return the growth over delta by one mesh, whose errors vary smoothly."""
-
-    def at(delta: float) -> Growth:
-        flow = _flow(half_angle, friction_angle, delta)
-        return growth_of(modes_on(flow, size), high_frequency(flow))
-
-    return at
-
-
-@dataclass(frozen=True)
-class NeutralBorder:
-    """Points of the neutral curve from the smooth wall on, arrays of shape (n,).
-
-    Attributes
-    ----------
-    friction_angle, delta, error_estimate : array
-        phi, delta and its error, radians.
-    frequency : array
-        Im(lambda) of the neutral modes; NaN for the strip.
-    settled : bool array
-        Whether the test of resolution expects no mode above 0.
-    """
-
-    friction_angle: Array
-    delta: Array
-    error_estimate: Array
-    frequency: Array
-    settled: Mask
-
-    __repr__ = brief("friction_angle deg", "delta deg", "settled")
-
-
 @checked
-def neutral_curve(
-    half_angle: Radians, step: Positive, highest: Radians | None = None
-) -> NeutralBorder:
-    """Trace the neutral curve from phi = 0 to its end, by continuation in phi.
-
-    It ends where no flow is stable, or none exists, or none is resolved; the last is found to
-    1e-4 rad in phi.
+def followed_up(
+    start: Followed,
+    friction_angle: Radians,
+    delta: Radians,
+    slope: float | None = None,
+    first: int | None = None,
+) -> NeutralFlow:
+    """Follow a mode to where it is neutral, and from there those that are above 0.
 
     Parameters
     ----------
-    half_angle : float
-        theta_w, radians.
-    step : float
-        Largest step in phi, radians.
-    highest : float, optional
-        Friction angle (radians) at which to stop.
+    start : Followed
+        Of a cone close by.
+    friction_angle, delta : float
+        phi, and a guess of the neutral delta, radians.
+    slope : float, optional
+        A guess of d Re(lambda) / d delta.
+    first : int, optional
+        Size in ``SIZES`` with which the test of resolution begins.
 
     Raises
     ------
-    InvalidParameterError
-        If an angle or the step is out of range.
     ConvergenceError
-        If not even the smooth wall has a neutral delta.
+        If a mode is lost or the modes are not resolved.
+    HopperError
+        As :func:`hopper.von_mises.following.flow_at`.
     """
-    if highest is not None:
-        require_angle("highest", highest, zero_allowed=True)
-    first = neutral_point(half_angle, 0.0)
-    if first is None:
-        raise ConvergenceError(
-            f"no neutral delta at half_angle = {np.degrees(half_angle):.6g} deg even for a smooth "
-            "wall: lower half_angle"
-        )
-    points, current, slope = [first], step, 0.0
-    while current > _SMALLEST_STEP:
-        last = points[-1]
-        phi = last.friction_angle + current
-        if highest is not None and phi > highest * (1 + 1e-12):
-            break
-        found = _following(half_angle, phi, last.delta + slope * current, last.size)
-        if found is None:
-            current /= 2
-            continue
-        slope = (found.delta - last.delta) / current
-        points.append(found)
-        current = min(2 * current, step)
-    return NeutralBorder(
-        *(np.array([getattr(p, name) for p in points]) for name in NeutralBorder.__annotations__)
+    require_angle("friction_angle", friction_angle, zero_allowed=True)
+    require_angle("delta", delta)
+    for changes in range(_CHANGES):
+        found, slope, error = _neutral(start, friction_angle, delta, slope)
+        delta = found.flow.hopper.delta
+        full = resolved_near(found.flow, first)
+        if not exceeded(found, full):
+            frequency = found.value.imag
+            point = NeutralDelta(delta, friction_angle, error, frequency, full.settled)
+            return NeutralFlow(point, found, slope, full, changes > 0)
+        start, slope, first = governing(full, found.flow), None, full.modes.size
+    raise ConvergenceError(
+        f"neutral point not resolved near delta = {np.degrees(delta):.6g} deg: modes take turns; "
+        "change the wall friction"
     )
 
 
-def _following(half_angle: float, phi: float, guess: float, size: int) -> NeutralDelta | None:
+def _neutral(
+    start: Followed, friction_angle: float, delta: float, slope: float | None
+) -> tuple[Followed, float, float]:
+    """Return a mode where it is neutral on a mesh fine enough, its slope, and delta's error."""
+    found, slope, step = neutral_from(start, friction_angle, delta, slope)
+    sure = found.resolved()
+    while sure.size != found.size:
+        found, slope, step = neutral_from(sure, friction_angle, sure.flow.hopper.delta, slope)
+        sure = found.resolved()
+    found = sure
+    return found, slope, found.error / abs(slope) + step
+
+
+@checked
+def exceeded(found: Followed, full: Growth) -> bool:
+    """Whether another mode than the followed one, or the strip, lies above it."""
+    other = complex(full.abscissa, full.frequency)
+    if abs(other - found.value) < _SAME * abs(other):
+        return False
+    return other.real > found.value.real + found.error + full.error_estimate
+
+
+@checked
+def resolved_near(flow: RadialSolution, first: int | None) -> Growth:
+    """Return the supremum as :func:`resolved_growth`, beginning with a mesh that suits a neighbour.
+
+    Rounding of the finest meshes may hide the low modes.
+
+    Raises
+    ------
+    ConvergenceError
+        As :func:`resolved_growth`.
+    """
     try:
-        return _near(half_angle, phi, guess, size)
-    except HopperError:
-        return None
+        return resolved_growth(flow, first=first)
+    except ConvergenceError:
+        if first is None:
+            raise
+        return resolved_growth(flow)
+
+
+@checked
+def first_size(found: Growth) -> int:
+    """Return the size with which the test of resolution of a neighbour is to begin."""
+    return SIZES[max(SIZES.index(found.modes.size) - 1, 1)]

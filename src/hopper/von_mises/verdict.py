@@ -19,6 +19,8 @@ from hopper.errors import (
     WallFrictionError,
 )
 from hopper.problem import Hopper
+from hopper.radial.collocation import Member, largest_psi
+from hopper.radial.members import physical_member
 from hopper.radial.solution import RadialSolution, solve_radial
 from hopper.values import require_angle
 from hopper.von_mises.characteristics import TENSION, EquationType, equation_type, reaches
@@ -175,11 +177,15 @@ def flow_limit(hopper: Hopper) -> float:
     """
     _require_von_mises(hopper)
 
+    neighbour: Member | None = None
+
     def excess(phi: float) -> float:
-        try:
-            return solve_radial(hopper, phi).psi_maximum()[1] - pi / 4
-        except NonPositiveStressError:
-            return -pi / 4
+        nonlocal neighbour
+        member = physical_member(hopper, phi, neighbour)
+        if member is None:
+            raise ConvergenceError(f"no radial solution found at phi = {degrees(phi):.6g} deg")
+        neighbour = member
+        return largest_psi(member) - pi / 4 if member.tau > 0 else -pi / 4
 
     at_wall = atan(hopper.s)
     low, step = 0.0, _FIRST_STEP
