@@ -39,6 +39,8 @@ WIDEST = radians(89)
 # of Mohr-Coulomb and von Mises cones: there the field of a smooth wall is close.
 _SPACING, _FIRST = 2.5, {"wedge": 20, "cone": 9, "von Mises": 11}
 _SIZE, _ACCEPTABLE = 36, 1e-8
+# Least clustering of points: psi rises within a part of the angles.
+_CLUSTERING = 3.0
 # Last coefficients of a field that is none on its grid, and the shortest step in delta, radians.
 _UNRESOLVED, _SHORTEST = 1e-3, 1e-4
 _NEWTON_STEPS, _LAST_STEP, _LARGEST_STEP = 30, 1e-7, 0.5
@@ -97,11 +99,11 @@ def flow_curve(hopper: Hopper) -> FlowCurve | None:
 def _curve(hopper: Hopper) -> FlowCurve | None:
     number = int(degrees(hopper.delta) / _SPACING)
     # Less internal friction has a field with a wider top, or none.
-    kept = [_kept(replace(hopper, delta=_delta(i))) for i in (number, number + 1)]
-    known = [member for member in kept if member]
-    if not known:
+    low, high = (_kept(replace(hopper, delta=_delta(i))) for i in (number, number + 1))
+    if high is None:
         return None
-    start = _continued(min(known, key=lambda one: abs(one.hopper.delta - hopper.delta)), hopper)
+    start = low and _between(low, high, hopper)
+    start = start or _continued(high, hopper)
     if start is None:
         return None
     member = _refined(start)
@@ -123,6 +125,14 @@ def _kept(hopper: Hopper) -> Member | None:
         return _on(_grid(start, _SIZE), start)
     start = _kept(replace(hopper, delta=_delta(first + step - (1 if step > 0 else -1))))
     return start and _continued(start, hopper)
+
+
+def _between(low: Member, high: Member, hopper: Hopper) -> Member | None:
+    """Return the field from its interpolation between two; None if that is no good start."""
+    grid = _grid(high, _SIZE)
+    share = (hopper.delta - low.hopper.delta) / (high.hopper.delta - low.hopper.delta)
+    u = (1 - share) * low.on(grid) + share * high.on(grid)
+    return _on(grid, replace(high, hopper=hopper, grid=grid, u=u))
 
 
 def _continued(member: Member, hopper: Hopper) -> Member | None:
@@ -152,7 +162,8 @@ def _continued(member: Member, hopper: Hopper) -> Member | None:
 
 
 def _grid(member: Member, size: int) -> Grid:
-    return half_grid(size, WIDEST, layer_clustering(member.hopper, member.tau))
+    clustering = max(_CLUSTERING, layer_clustering(member.hopper, member.tau))
+    return half_grid(size, WIDEST, clustering)
 
 
 def _refined(member: Member) -> Member:
