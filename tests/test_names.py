@@ -166,6 +166,7 @@ def results():
     from hopper.march.tops import riemann_deviation, scaled
     from hopper.radial.branch import branch_up_to
     from hopper.radial.critical_point import CriticalPoint, LimitingSolution
+    from hopper.radial.flow_curve import flow_curve
     from hopper.radial.pieces import first_piece
     from hopper.spectral.sensitivity import kept_sensitivity
     from hopper.stability.convergence_filter import convergence_filter
@@ -241,7 +242,8 @@ def results():
         net_verdict(net, lambda x: riemann_deviation(base, scaled(1.0), x), 0.01, 1e-5, False),
         Crossing(0.1, 0.1, 1, 1e-6), Breakdown(0.1, 1e-6, 0.5, 0.9),
         characteristics(wedge, scaled(1.0), 4, 0.01),
-        flow_curve(wedge), found_design, found_design.half_angles, found_design.outlet, wanted, wanted.flow_function,
+        flow_curve(hopper.Hopper("wedge", radians(45), 0.2)),
+        found_design, found_design.half_angles, found_design.outlet, wanted, wanted.flow_function,
         steel_wall, flow_pattern(steel_wall, 0.2), judge_hopper(steel_wall, 0.2),
         HopperList(("geometry", "delta"), (), {}),
         describe_coupled(elliptic), judged, judged.type, judged.growth, judged.modes,

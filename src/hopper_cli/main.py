@@ -30,7 +30,11 @@ EXAMPLES = {
     "--eps 0.2 --depth 1",
 }
 # The extra of the distribution and its libraries that a file of this suffix needs.
-_LIBRARIES = {".csv": ("", list[str]()), ".nc": ("data", ["xarray", "netCDF4"])}
+_LIBRARIES = {
+    ".csv": ("", list[str]()),
+    ".xlsx": ("data", ["openpyxl"]),
+    ".nc": ("data", ["xarray", "netCDF4"]),
+}
 _EXIT_CODES = """\
 exit codes:
   0 answered, 1 there is no answer (the reason is on stderr), 2 wrong options or files"""
@@ -241,8 +245,8 @@ def _check(options: argparse.Namespace) -> None:
     """
     if options.command == "table":
         sheet_options.check(options)
-        if options.out.suffix.lower() == ".nc":
-            _require_libraries("--out", ".nc")
+        if options.out.suffix.lower() in _LIBRARIES:
+            _require_libraries("--out", options.out.suffix.lower())
         return
     if options.explain and options.json:
         raise UsageError("argument --explain: explains text: leave out --json")

@@ -8,13 +8,16 @@ import pytest
 from hopper.design.half_angles import half_angles
 from hopper.design.material import Material
 from hopper.errors import HopperError
-from hopper.problem import Hopper
+from hopper.problem import Geometry, Hopper
 from hopper.radial.collocation import largest_psi
 from hopper.radial.flow_curve import WIDEST, flow_curve
 from hopper.radial.members import physical_member
-from hopper.yield_conditions import MOHR_COULOMB, VON_MISES
+from hopper.yield_conditions import MOHR_COULOMB, VON_MISES, YieldCondition
 
-KINDS = {"wedge": ("wedge", MOHR_COULOMB), "von-mises": ("cone", VON_MISES)}
+KINDS: dict[str, tuple[Geometry, YieldCondition]] = {
+    "wedge": ("wedge", MOHR_COULOMB),
+    "von-mises": ("cone", VON_MISES),
+}
 
 
 def random_walls(kind, number, least, most, seed):
@@ -67,7 +70,8 @@ def test_errors_near_the_top_go_as_the_square_root():
     curve = flow_curve(Hopper("wedge", radians(50), 0.1))
     assert curve
     far, near = (curve.half_angle(pi / 4 - gap) for gap in (0.1, 1e-12))
-    assert far and near
+    assert far
+    assert near
     assert near.error > 1e3 * far.error
     assert curve.half_angle(pi / 4) is None
 

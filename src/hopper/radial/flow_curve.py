@@ -71,7 +71,7 @@ class FlowCurve:
         def at(level: float) -> float:
             if level >= pi / 4:
                 return self.top
-            return float(brentq(lambda x: psi_row(grid.size, x) @ psi - level, 0, self.top))
+            return float(brentq(lambda x: float(psi_row(grid.size, x) @ psi) - level, 0, self.top))
 
         # Close to the top the error goes as the square root: the difference tells.
         levels = (psi_wall, psi_wall - error, psi_wall + error)
@@ -121,8 +121,8 @@ def _kept(hopper: Hopper) -> Member | None:
     first = _FIRST[hopper.material.name if hopper.material.hoop == 0 else hopper.geometry]
     step = round(degrees(hopper.delta) / _SPACING) - first
     if not step:
-        start = smooth_wall_member(hopper, _SIZE)
-        return _on(_grid(start, _SIZE), start)
+        smooth = smooth_wall_member(hopper, _SIZE)
+        return _on(_grid(smooth, _SIZE), smooth)
     start = _kept(replace(hopper, delta=_delta(first + step - (1 if step > 0 else -1))))
     return start and _continued(start, hopper)
 
