@@ -60,6 +60,18 @@ class FlowCurve:
 
     __repr__ = brief("member.tau", "member.error", "top")
 
+    @property
+    def theta_top(self) -> float:
+        """Where psi is pi/4, radians."""
+        return WIDEST * float(self.member.grid.map.forward(np.cos([self.top]))[0][0])
+
+    @checked
+    def psi_at(self, theta: float) -> float:
+        """Return psi (radians) at an angle (radians) up to ``WIDEST``."""
+        return float(
+            (self.member.grid.interpolation(np.array([theta]), "odd") @ self.member.psi)[0]
+        )
+
     @checked
     def half_angle(self, psi_wall: float) -> Quantity | None:
         """Return the angle (radians) beyond the top where psi is ``psi_wall``, None if nowhere."""
