@@ -1,0 +1,62 @@
+"""Design charts on given axes; the look of pages is the caller's."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from hopper_cli.drawing import Array
+
+FLOW_FACTORS = (1.1, 1.2, 1.3, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 4.0)
+# Style and words of each limit; they differ without colour.
+_LOOKS = {
+    "classical": ({"color": "black", "linewidth": 1.6}, r"$\sigma_0 = 0$ (a)"),
+    "limit": ({"color": "0.45", "linestyle": "--"}, "a radial solution exists (b)"),
+    "velocity": ({"color": "#0072B2", "linestyle": "-."}, r"$\psi < \pi/4$ (c)"),
+    "stability": ({"color": "#D55E00", "linestyle": (0, (1, 1))}, "stable (d)"),
+    "stable_from": ({"color": "#D55E00", "linestyle": (0, (1, 1))}, ""),
+}
+_FLOWS = {"cone": "classical", "wedge": "velocity"}
+
+
+def draw_limits(axis: Axes, geometry: str, half_angle: Array, phi: Mapping[str, Array]) -> None:
+    """Draw limits of wall friction by name, degrees, and grey where there is mass flow."""
+    flows = phi[_FLOWS[geometry]]
+    flows = np.where(np.isnan(flows) & (geometry == "wedge"), phi["limit"], flows)
+    axis.fill_between(half_angle, 0, flows, color="0.9", linewidth=0)
+    for name, (look, _) in _LOOKS.items():
+        axis.plot(half_angle, phi[name], **look)
+
+
+def keys(geometry: str) -> list[Line2D]:
+    """Return the legend's handles, the limit of mass flow in words."""
+    found = []
+    for name, (look, words) in _LOOKS.items():
+        if words and (name != "classical" or geometry == "cone"):
+            flows = ": mass flow (grey)" if name == _FLOWS[geometry] else ""
+            found.append(Line2D([], [], label=f"{words}{flows}", **look))
+    return found
+
+
+def draw_flow_factors(
+    axis: Axes, half_angle: Array, phi: Array, factors: Array, levels: Sequence[float]
+) -> None:
+    """Draw contours of the flow factor up to the limit of mass flow.
+
+    ``half_angle`` is of shape (n,), ``phi`` and ``factors`` of shape (n, m), degrees. Rows of the
+    grid end on the limit, so that contours do as well.
+    """
+    known = np.isfinite(factors).all(axis=1)
+    angles = np.broadcast_to(half_angle[known, None], factors[known].shape)
+    axis.plot(half_angle[known], phi[known, -1], color="black", linewidth=1.6)
+    lines = axis.contour(angles, phi[known], factors[known], levels, colors="black", linewidths=0.7)
+    axis.clabel(lines, fontsize=7, fmt="%g", inline_spacing=2)
+
+
+def label(axes: Sequence[Axes], *, left: bool) -> None:
+    """Label axes of half angle and wall friction."""
+    for axis in axes:
+        axis.set_xlabel(r"half angle $\vartheta_w$ (degrees)")
+    if left:
+        axes[0].set_ylabel(r"wall friction $\phi$ (degrees)")
