@@ -7,8 +7,6 @@ from matplotlib.figure import Figure
 from hopper_workflow import artifacts, jobs, plotting
 from hopper_cli import chart_drawing
 
-_LINES = ("classical", "limit", "velocity", "stability", "stable_from")
-
 
 def draw(artifact: str, *, flow_factors: Sequence[float]) -> Figure:
     """Plot limits of wall friction over the half angle, and contours of the flow factor below."""
@@ -20,7 +18,7 @@ def draw(artifact: str, *, flow_factors: Sequence[float]) -> Figure:
         one = data.sel(delta=delta)
         one = one.isel(point=one.half_angle.notnull().values)
         half_angle = one.half_angle.values
-        lines = {name: one[f"{name}_phi"].values for name in _LINES}
+        lines = {name: one[f"{name}_phi"].values for name in chart_drawing.LINES}
         chart_drawing.draw_limits(column[0], geometry, half_angle, lines)
         shown = one.phi.values, one.flow_factor.values
         chart_drawing.draw_flow_factors(column[1], half_angle, *shown, flow_factors)

@@ -8,7 +8,7 @@ from matplotlib.lines import Line2D
 
 from hopper_cli.drawing import Array
 
-FLOW_FACTORS = (1.1, 1.2, 1.3, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 4.0)
+FLOW_FACTORS = (1.1, 1.2, 1.4, 1.6, 1.8, 2.0, 3.0, 5.0)
 # Style and words of each limit; they differ without colour.
 _LOOKS = {
     "classical": ({"color": "black", "linewidth": 1.6}, r"$\sigma_0 = 0$ (a)"),
@@ -17,6 +17,7 @@ _LOOKS = {
     "stability": ({"color": "#D55E00", "linestyle": (0, (1, 1))}, "stable (d)"),
     "stable_from": ({"color": "#D55E00", "linestyle": (0, (1, 1))}, ""),
 }
+LINES = tuple(_LOOKS)
 _FLOWS = {"cone": "classical", "wedge": "velocity"}
 
 
@@ -27,6 +28,11 @@ def draw_limits(axis: Axes, geometry: str, half_angle: Array, phi: Mapping[str, 
     axis.fill_between(half_angle, 0, flows, color="0.9", linewidth=0)
     for name, (look, _) in _LOOKS.items():
         axis.plot(half_angle, phi[name], **look)
+    # Where the stable interval ends its two sides meet.
+    inside = np.isfinite(phi["stability"]) & np.isfinite(phi["stable_from"])
+    for end in np.flatnonzero(inside[:-1] & np.isnan(phi["stability"][1:])):
+        ends = phi["stable_from"][end], phi["stability"][end]
+        axis.plot([half_angle[end]] * 2, ends, **_LOOKS["stability"][0])
 
 
 def keys(geometry: str) -> list[Line2D]:

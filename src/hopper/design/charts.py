@@ -6,6 +6,7 @@ lack. At each half angle a limit is a root in the friction of the wall.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import nan, pi
 from typing import TypeVar
 
@@ -36,7 +37,6 @@ from hopper.radial.solution import solution_of, solve_radial
 from hopper.stability.modes import linear_stability
 
 _Found = TypeVar("_Found")
-_Column = dict[str, Quantity | None]
 _LINES = ("classical", "limit", "velocity", "stability", "stable_from")
 # Wall frictions at which stability is looked at, relative to the limit, and where roots end.
 _LOOKED_AT = np.array([0.0, 0.2, 0.4, 0.6, 0.8, 0.93, 0.995])
@@ -46,6 +46,8 @@ _LAST = 0.999
 _STEP = 1e-6
 # How close the end of radial solutions for smooth walls is approached, radians.
 _END = 1e-4
+# Halvings of the step in the half angle where the stable interval ends.
+_HALVINGS = 6
 
 
 @dataclass(frozen=True)
@@ -111,14 +113,16 @@ def chart(
     if frictions < 2:
         raise InvalidParameterError(f"frictions = {frictions} is too few: give 2 at least")
     field = _or_none(lambda: flow_curve(Hopper(geometry, delta, 0.1)))
-    angles = _with_corners(Hopper(geometry, delta, float(angles[0])), angles, field)
-    columns = [_column(Hopper(geometry, delta, angle), field) for angle in angles.tolist()]
-    flows = [_mass_flow(geometry, column) for column in columns]
+    narrow = Hopper(geometry, delta, float(angles[0]))
+    angles = _with_corners(narrow, angles, field)
+    columns = _with_noses([_column(replace(narrow, half_angle=a), field) for a in angles.tolist()])
+    angles = np.array([column.half_angle for column in columns])
+    flows = [column.mass_flow for column in columns]
     rows = np.outer(flows, np.linspace(0, _LAST, frictions))
     factors = [
         _factors(Hopper(geometry, delta, a), row) for a, row in zip(angles, rows, strict=True)
     ]
-    lines = {name: _line([column[name] for column in columns]) for name in _LINES}
+    lines = {name: _line([column.limits[name] for column in columns]) for name in _LINES}
     return Chart(angles, friction_angle=rows, flow_factor=np.array(factors), **lines)
 
 
@@ -147,21 +151,54 @@ def _last_smooth(hopper: Hopper, low: float, high: float) -> float:
     return low
 
 
+@dataclass(frozen=True)
+class _Column:
+    """All limits at one half angle, by name."""
+
+    hopper: Hopper
+    field: FlowCurve | None
+    limits: dict[str, Quantity | None]
+
+    @property
+    def half_angle(self) -> float:
+        return self.hopper.half_angle
+
+    @property
+    def mass_flow(self) -> float:
+        """The wall friction up to which there is mass flow, radians; NaN where there is none."""
+        cone = self.hopper.geometry == "cone"
+        found = self.limits["classical" if cone else "velocity"]
+        found = found or (None if cone else self.limits["limit"])
+        return found.value if found else nan
+
+
 def _column(hopper: Hopper, field: FlowCurve | None) -> _Column:
-    """Return all limits at one half angle."""
-    found: _Column = dict.fromkeys(_LINES)
+    found: dict[str, Quantity | None] = dict.fromkeys(_LINES)
     limit = found["limit"] = _or_none(lambda: _limit(hopper))
     found["classical"] = _or_none(lambda: _classical(hopper))
     if limit and field:
         found["velocity"] = _velocity(hopper, field, limit.value)
     if limit:
         found["stable_from"], found["stability"] = _stable(hopper, limit)
-    return found
+    return _Column(hopper, field, found)
 
 
-def _mass_flow(geometry: Geometry, column: _Column) -> float:
-    found = column["classical"] if geometry == "cone" else column["velocity"] or column["limit"]
-    return found.value if found else nan
+def _with_noses(columns: list[_Column]) -> list[_Column]:
+    """Return columns with more of them where the stable interval shrinks to nothing."""
+    found = columns[:1]
+    for low, last in pairwise(columns):
+        high, more = last, list[_Column]()
+        if low.limits["limit"] and high.limits["limit"]:
+            for _ in range(_HALVINGS):
+                if bool(low.limits["stability"]) == bool(high.limits["stability"]):
+                    break
+                angle = (low.half_angle + high.half_angle) / 2
+                middle = _column(replace(low.hopper, half_angle=angle), low.field)
+                more.append(middle)
+                alike = bool(middle.limits["stability"]) == bool(low.limits["stability"])
+                low, high = (middle, high) if alike else (low, middle)
+        found += [*more, last]
+    return sorted(found, key=lambda one: one.half_angle)
 
 
 def _or_none(find: Callable[[], _Found]) -> _Found | None:
