@@ -41,6 +41,8 @@ _LINES = ("classical", "limit", "velocity", "stability", "stable_from")
 # Wall frictions at which stability is looked at, relative to the limit, and where roots end.
 _LOOKED_AT = np.array([0.0, 0.2, 0.4, 0.6, 0.8, 0.93, 0.995])
 _ROOT = 1e-9
+# Parabolas through the three samples around the lowest one where none is stable.
+_PARABOLAS = 3
 # The largest wall friction of flow factors, relative to the limit of mass flow.
 _LAST = 0.999
 _STEP = 1e-6
@@ -255,6 +257,7 @@ def _stable(hopper: Hopper, limit: Quantity) -> tuple[Quantity | None, Quantity 
 
     phis = limit.value * _LOOKED_AT
     values = sweep_friction(hopper, phis).abscissa
+    phis, values = _with_lowest(abscissa, phis, values)
     (stable,) = np.nonzero(values < 0)
     if not stable.size:
         return None, None
@@ -267,6 +270,27 @@ def _stable(hopper: Hopper, limit: Quantity) -> tuple[Quantity | None, Quantity 
     if np.isnan(values[last + 1]):
         return low, None
     return low, _or_none(lambda: root(*phis[last : last + 2]))
+
+
+def _with_lowest(
+    abscissa: Callable[[float], float], phis: Array, values: Array
+) -> tuple[Array, Array]:
+    """Return samples with the least between them, where none is negative: by parabolas."""
+    for _ in range(_PARABOLAS):
+        if not np.isfinite(values).any() or np.nanmin(values) < 0:
+            break
+        lowest = int(np.nanargmin(values))
+        around = slice(lowest - 1, lowest + 2)
+        if not 0 < lowest < phis.size - 1 or np.isnan(values[around]).any():
+            break
+        a, b, _ = np.polyfit(phis[around], values[around], 2)
+        at = -b / (2 * a)
+        if np.abs(phis - at).min() < _ROOT:
+            break
+        place = int(np.searchsorted(phis, at))
+        phis = np.insert(phis, place, at)
+        values = np.insert(values, place, _or_none(lambda at=at: abscissa(float(at))) or nan)
+    return phis, values
 
 
 def _factors(hopper: Hopper, frictions: Array) -> Array:
