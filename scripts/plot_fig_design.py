@@ -21,7 +21,7 @@ def draw(artifact: str, *, flow_factors: Sequence[float]) -> Figure:
         lines = {name: one[f"{name}_phi"].values for name in chart_drawing.LINES}
         chart_drawing.draw_limits(column[0], geometry, half_angle, lines)
         shown = one.phi.values, one.flow_factor.values
-        chart_drawing.draw_flow_factors(column[1], half_angle, *shown, flow_factors)
+        chart_drawing.draw_flow_factors(column[1], half_angle, *shown, sorted(flow_factors))
         column[0].set_title(rf"{geometry}, $\delta$ = {delta:g}°")
         column[1].set_title("flow factor")
         column[0].set_xlim(0, float(data.half_angle.max()))

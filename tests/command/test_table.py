@@ -3,6 +3,7 @@
 import csv
 import json
 
+import numpy as np
 import pytest
 import xarray as xr
 
@@ -58,17 +59,41 @@ def test_a_row_says_what_the_other_commands_say(run, hoppers, tmp_path):
     run(f"table {hoppers} --out {out} --cores 1")
     rows = json.loads(out.read_text(encoding="utf-8"))
     for row in (rows[0], rows[2]):
-        case = (
-            f"--geometry {row['geometry']} --delta {row['delta']} --half-angle "
-            f"{row['half-angle']} --phi {row['phi']} --json"
-        )
-        radial, stability = (json.loads(run(f"{it} {case}")[1]) for it in ("radial", "stability"))
-        assert row["sentence"] == radial["sentence"] == stability["sentence"]
-        assert row["verdict"] == stability["verdict"]
-        assert row["governed_by"] == stability["governed_by"]
-        difference = abs(row["abscissa"] - stability["abscissa"])
-        assert difference <= row["abscissa_error"] + stability["error_estimate"]
-        assert abs(row["flow_factor"] - radial["flow_factor"]) <= row["flow_factor_error"] * 2
+        compare_with_commands(run, row)
+
+
+@pytest.mark.parametrize("number", [6, pytest.param(60, marks=pytest.mark.soak)])
+def test_rows_at_random_say_what_the_other_commands_say(run, tmp_path, number):
+    print("seed 2110")
+    rng = np.random.default_rng(2110)
+    path, out = tmp_path / "list.csv", tmp_path / "answers.json"
+    ranges = ((30, 60), (5, 35), (5, 25))
+    rows = [
+        ",".join([rng.choice(["cone", "wedge"]), *(f"{rng.uniform(*ends):.4f}" for ends in ranges)])
+        for _ in range(number)
+    ]
+    path.write_text("\n".join(["geometry,delta,half-angle,phi", *rows]) + "\n", encoding="utf-8")
+    assert run(f"table {path} --out {out} --cores 1")[0] == 0
+    for row in json.loads(out.read_text(encoding="utf-8")):
+        compare_with_commands(run, row)
+
+
+def compare_with_commands(run, row):
+    case = (
+        f"--geometry {row['geometry']} --delta {row['delta']} --half-angle "
+        f"{row['half-angle']} --phi {row['phi']} --json"
+    )
+    radial, stability = (json.loads(run(f"{it} {case}")[1]) for it in ("radial", "stability"))
+    if "error" in stability:
+        assert row["verdict"] is None
+        assert row["reason"] == stability["error"]["message"]
+        return
+    assert row["sentence"] == radial["sentence"] == stability["sentence"]
+    assert row["verdict"] == stability["verdict"]
+    assert row["governed_by"] == stability["governed_by"]
+    difference = abs(row["abscissa"] - stability["abscissa"])
+    assert difference <= row["abscissa_error"] + stability["error_estimate"]
+    assert abs(row["flow_factor"] - radial["flow_factor"]) <= row["flow_factor_error"] * 2
 
 
 def test_netcdf_has_a_variable_for_each_column(run, hoppers, tmp_path):
