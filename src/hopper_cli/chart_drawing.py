@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
+from scipy.interpolate import RectBivariateSpline
 
 from hopper_cli.drawing import Array
 
@@ -18,6 +19,10 @@ _LOOKS = {
     "stable_from": ({"color": "#D55E00", "linestyle": (0, (1, 1))}, ""),
 }
 LINES = tuple(_LOOKS)
+# Of labels to the frame and to the limit of mass flow, relative to the axes.
+_MARGIN = 0.07
+# Distance of the ends of a contour without a label, relative to the axes.
+_SHORT = 0.05
 _FLOWS = {"cone": "classical", "wedge": "velocity"}
 
 
@@ -54,10 +59,50 @@ def draw_flow_factors(
     grid end on the limit, so that contours do as well.
     """
     known = np.isfinite(factors).all(axis=1)
-    angles = np.broadcast_to(half_angle[known, None], factors[known].shape)
-    axis.plot(half_angle[known], phi[known, -1], color="black", linewidth=1.6)
-    lines = axis.contour(angles, phi[known], factors[known], levels, colors="black", linewidths=0.7)
-    axis.clabel(lines, fontsize=7, fmt="%g", inline_spacing=2)
+    angle, top = half_angle[known], phi[known, -1]
+    axis.plot(angle, top, color="black", linewidth=1.6)
+    share = np.linspace(0, 1, factors.shape[1])
+    orders = {"kx": min(3, angle.size - 1), "ky": min(3, share.size - 1)}
+    spline = RectBivariateSpline(angle, share, np.log(factors[known]), **orders)
+    angle_between, share_between = _between(angle), _between(share)
+    lines = axis.contour(
+        np.broadcast_to(angle_between[:, None], (angle_between.size, share_between.size)),
+        np.outer(np.interp(angle_between, angle, top), share_between),
+        np.exp(spline(angle_between, share_between)),
+        levels,
+        colors="black",
+        linewidths=0.7,
+    )
+    frame = np.array([half_angle[-1], top.max()])
+    # Labels of neighbours stand apart.
+    places = [
+        place
+        for number, parts in enumerate(lines.allsegs)
+        for part in parts
+        for place in _label_place(part, (angle, top), frame, (0.3, 0.6)[number % 2])
+    ]
+    if places:
+        axis.clabel(lines, fontsize=7, fmt="%g", inline_spacing=2, manual=places)
+
+
+def _label_place(
+    part: Array, limit: tuple[Array, Array], frame: Array, share: float
+) -> list[tuple[float, float]]:
+    """Return where on a part of a contour its label stands, none if that is short."""
+    x, y = part.T
+    margin = _MARGIN * frame
+    free = (x > margin[0]) & (x < frame[0] - margin[0]) & (y > margin[1])
+    inside = part[free & (y < np.interp(x, *limit) - margin[1])]
+    if len(inside) < 2 or np.hypot(*((inside[-1] - inside[0]) / frame)) < _SHORT:
+        return []
+    found: tuple[float, float] = tuple(inside[int(share * len(inside))])
+    return [found]
+
+
+def _between(points: Array) -> Array:
+    """Return points with three more in each interval: contours between samples are curves."""
+    steps = np.arange(4 * (points.size - 1) + 1) / 4
+    return np.interp(steps, np.arange(points.size), points)
 
 
 def label(axes: Sequence[Axes], *, left: bool) -> None:
