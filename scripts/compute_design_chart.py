@@ -3,6 +3,7 @@
 import logging
 from collections.abc import Sequence
 from math import radians
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -16,7 +17,7 @@ from hopper_data.tables import in_degrees
 
 
 def compute_design_chart(
-    *, geometry: str, deltas_deg: Sequence[float], half_angles_deg: dict[str, float], frictions: int
+    *, geometry: str, deltas_deg: Sequence[float], half_angles_deg: dict[str, Any], frictions: int
 ) -> xr.Dataset:
     """Compute a chart for each internal friction."""
     report = jobs.progress(logging.getLogger(), "internal frictions")

@@ -38,6 +38,19 @@ class Completion(argparse.Action):
         parser.exit()
 
 
+def add(parser: argparse.ArgumentParser) -> None:
+    """Add the options to the command."""
+    parser.add_argument(
+        "--version", action=Version, nargs=0, help="print version and commit, and end"
+    )
+    parser.add_argument(
+        "--print-completion",
+        action=Completion,
+        choices=SHELLS,
+        help="print the script that completes this command in a shell, and end",
+    )
+
+
 def commit(clone: Path) -> str:
     """Return `git describe` of a clone in brackets, nothing where there is none."""
     if not (clone / ".git").exists():

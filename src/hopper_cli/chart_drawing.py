@@ -1,6 +1,7 @@
 """Design charts on given axes; the look of pages is the caller's."""
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,7 +12,7 @@ from hopper_cli.drawing import Array
 
 FLOW_FACTORS = (1.1, 1.2, 1.4, 1.6, 1.8, 2.0, 3.0, 5.0)
 # Style and words of each limit; they differ without colour.
-_LOOKS = {
+_LOOKS: dict[str, tuple[dict[str, Any], str]] = {
     "classical": ({"color": "black", "linewidth": 1.6}, r"$\sigma_0 = 0$ (a)"),
     "limit": ({"color": "0.45", "linestyle": "--"}, "a radial solution exists (b)"),
     "velocity": ({"color": "#0072B2", "linestyle": "-."}, r"$\psi < \pi/4$ (c)"),
@@ -62,8 +63,8 @@ def draw_flow_factors(
     angle, top = half_angle[known], phi[known, -1]
     axis.plot(angle, top, color="black", linewidth=1.6)
     share = np.linspace(0, 1, factors.shape[1])
-    orders = {"kx": min(3, angle.size - 1), "ky": min(3, share.size - 1)}
-    spline = RectBivariateSpline(angle, share, np.log(factors[known]), **orders)
+    kx, ky = min(3, angle.size - 1), min(3, share.size - 1)
+    spline = RectBivariateSpline(angle, share, np.log(factors[known]), kx=kx, ky=ky)
     angle_between, share_between = _between(angle), _between(share)
     lines = axis.contour(
         np.broadcast_to(angle_between[:, None], (angle_between.size, share_between.size)),

@@ -122,15 +122,7 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
-    parser.add_argument(
-        "--version", action=about.Version, nargs=0, help="print version and commit, and end"
-    )
-    parser.add_argument(
-        "--print-completion",
-        action=about.Completion,
-        choices=about.SHELLS,
-        help="print the script that completes this command in a shell, and end",
-    )
+    about.add(parser)
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     radial = _command(
         commands, "radial", "the radial solution: stresses, psi, velocity, flow factor, limits"
@@ -155,11 +147,15 @@ def _parser() -> argparse.ArgumentParser:
     _add_geometry_and_model(neutral)
     _add_half_angle_and_wall(neutral)
     _add_modes(stability, neutral, _add_design(commands))
+    _add_files_of_answers(commands)
+    return parser
+
+
+def _add_files_of_answers(commands: "argparse._SubParsersAction[_Parser]") -> None:
     sheet_options.add(_command(commands, "table", "the short answer about each hopper of a list"))
     chart_options.add(
         _command(commands, "chart", "the design chart of a material: limits of walls, flow factors")
     )
-    return parser
 
 
 def _add_design(commands: "argparse._SubParsersAction[_Parser]") -> argparse.ArgumentParser:

@@ -10,17 +10,18 @@ from hopper.design.charts import chart
 from hopper.design.half_angles import half_angles
 from hopper.design.material import Material
 from hopper.errors import HopperError, InvalidParameterError, NoRadialSolutionError
+from hopper.problem import Geometry
 from hopper.radial.friction_limit import friction_limit
 from hopper.stability.modes import linear_stability
 
+HOPPERS: tuple[tuple[Geometry, float], ...] = (("cone", 30), ("wedge", 50))
 ANGLES = np.radians([10.0, 25.0, 40.0])
 
 
 @pytest.fixture(scope="module")
 def charts():
     return {
-        (geometry, delta): chart(geometry, radians(delta), ANGLES, 4)
-        for geometry, delta in (("cone", 30), ("wedge", 50))
+        (geometry, delta): chart(geometry, radians(delta), ANGLES, 4) for geometry, delta in HOPPERS
     }
 
 
@@ -99,7 +100,7 @@ def test_the_stable_interval_of_narrow_wedges_closes(charts):
 
 
 def test_rows_that_are_refused():
-    with pytest.raises(InvalidParameterError, match="must increase"):
+    with pytest.raises(InvalidParameterError, match="two at least, and increase"):
         chart("cone", 0.6, ANGLES[::-1])
     with pytest.raises(InvalidParameterError, match="frictions = 1 is too few"):
         chart("cone", 0.6, ANGLES, 1)

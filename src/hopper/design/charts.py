@@ -6,6 +6,7 @@ lack. At each half angle a limit is a root in the friction of the wall.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 from math import nan, pi
 from typing import TypeVar
@@ -106,12 +107,12 @@ def chart(
     Raises
     ------
     InvalidParameterError
-        If an angle is out of range, the half angles do not increase, or there are fewer than two
-        frictions.
+        If an angle is out of range, the half angles do not increase, or there are fewer than two,
+        or fewer than two frictions.
     """
     angles = np.asarray(half_angle_row)
-    if np.any(np.diff(angles) <= 0):
-        raise InvalidParameterError("half_angle_row must increase: sort and remove repeated ones")
+    if angles.size < 2 or np.any(np.diff(angles) <= 0):
+        raise InvalidParameterError("half_angle_row must be two at least, and increase: sort them")
     if frictions < 2:
         raise InvalidParameterError(f"frictions = {frictions} is too few: give 2 at least")
     field = _or_none(lambda: flow_curve(Hopper(geometry, delta, 0.1)))
@@ -289,7 +290,7 @@ def _with_lowest(
             break
         place = int(np.searchsorted(phis, at))
         phis = np.insert(phis, place, at)
-        values = np.insert(values, place, _or_none(lambda at=at: abscissa(float(at))) or nan)
+        values = np.insert(values, place, _or_none(partial(abscissa, float(at))) or nan)
     return phis, values
 
 
@@ -302,7 +303,7 @@ def _factors(hopper: Hopper, frictions: Array) -> Array:
     branch = _or_none(lambda: branch_up_to(hopper, float(psi_walls.max())))
     members = members_on(branch, psi_walls) if branch else [None] * frictions.size
     for i, (phi, member) in enumerate(zip(frictions.tolist(), members, strict=True)):
-        found = member or _or_none(lambda phi=phi: physical_member(hopper, phi))
+        found = member or _or_none(partial(physical_member, hopper, phi))
         if found and found.tau > 0:
             factors[i] = flow_factor(solution_of(found))
     return factors
