@@ -161,7 +161,8 @@ def moved(u: Array, old: Grid, new: Grid) -> Array:
 @checked
 def largest_psi(member: Member) -> float:
     """Return the largest psi (radians) on [0, theta_w]."""
-    return float(psi_row(member.grid.size, top_of(member.psi)) @ member.psi)
+    top = top_of(member.psi)
+    return float(psi_row(member.grid.size, top) @ member.psi) if top else member.psi_wall
 
 
 @checked
