@@ -32,6 +32,7 @@ _FIGURES = (
     (r"results/map/\w+\.nc", "fig_4_5_map"),
     (r"results/sensitivity/\w+\.nc", "fig_resolvent"),
     (r"results/flow_factor/jenike\.nc", "fig_jenike"),
+    (r"results/design/(\w+)\.nc", r"fig_design_\1"),
     (r"results/smooth_wall\.nc", "fig_4_1"),
     (r"results/domain_angle\.nc", "fig_domain_angle"),
     (r"results/march_\w+/(\w+)\.nc", r"\1"),

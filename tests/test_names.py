@@ -140,6 +140,7 @@ def results():
     from hopper.assessment.coupled import describe_coupled
     from hopper.assessment.march import assess_march
     from hopper.assessment.neutral import assess_neutral
+    from hopper.design.charts import chart
     from hopper.design.design import Demand, design
     from hopper.design.flow_pattern import flow_pattern
     from hopper.design.judgement import judge_hopper
@@ -166,6 +167,7 @@ def results():
     from hopper.march.tops import riemann_deviation, scaled
     from hopper.radial.branch import branch_up_to
     from hopper.radial.critical_point import CriticalPoint, LimitingSolution
+    from hopper.radial.flow_curve import flow_curve
     from hopper.radial.pieces import first_piece
     from hopper.spectral.sensitivity import kept_sensitivity
     from hopper.stability.convergence_filter import convergence_filter
@@ -199,6 +201,7 @@ def results():
     form = hopper.schur_form(np.diag([-1.0, -2.0]))
     piece = first_piece(cone)
     base = base_of(solution)
+    drawn = chart("cone", radians(40), [0.2, 0.3], 2)
     wedge = base_of(hopper.solve_radial(hopper.Hopper("wedge", radians(45), radians(10)), 0.0))
     assessed = assess_march(wedge.solution, scaled(2.0), 0.01, 0.005)
     marched = assessed.result
@@ -242,6 +245,7 @@ def results():
         net_verdict(net, lambda x: riemann_deviation(base, scaled(1.0), x), 0.01, 1e-5, False),
         Crossing(0.1, 0.1, 1, 1e-6), Breakdown(0.1, 1e-6, 0.5, 0.9),
         characteristics(wedge, scaled(1.0), 4, 0.01),
+        flow_curve(hopper.Hopper("wedge", radians(45), 0.2)), drawn, drawn.limit,
         found_design, found_design.half_angles, found_design.outlet, wanted, wanted.flow_function,
         steel_wall, flow_pattern(steel_wall, 0.2), judge_hopper(steel_wall, 0.2),
         HopperList(("geometry", "delta"), (), {}),

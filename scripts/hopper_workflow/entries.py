@@ -12,6 +12,8 @@ from typing import Any, NamedTuple
 _FIXED = (
     "fig_1_1",
     "fig_jenike",
+    "fig_design_cone",
+    "fig_design_wedge",
     "fig_4_1",
     "fig_resolvent",
     "fig_4_5",

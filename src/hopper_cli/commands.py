@@ -20,7 +20,7 @@ from hopper.errors import ConvergenceError, NoRadialSolutionError, WallFrictionE
 from hopper.problem import as_geometry
 from hopper.radial.solution import solve_radial
 from hopper.stability.collocation import Parity
-from hopper_cli import designs, documents, progress, sentences, sheets, text, written
+from hopper_cli import designs, documents, progress, sentences, text, written
 from hopper_cli.errors import UsageError
 from hopper_data import assessments, tables
 from hopper_data.inputs import Case, Wall
@@ -42,16 +42,8 @@ def answer(options: Namespace) -> str:
     HopperError
         If there is no answer; the message says up to which friction there is one.
     """
-    commands = {
-        "radial": _radial,
-        "stability": _stability,
-        "neutral": _neutral,
-        "march": _march,
-        "design": designs.answer,
-        "table": sheets.answer,
-    }
-    found = commands[options.command](options)
-    return documents.explained(found) if getattr(options, "explain", False) else found
+    commands = {"radial": _radial, "stability": _stability, "neutral": _neutral, "march": _march}
+    return commands[options.command](options)
 
 
 def _radial(options: Namespace) -> str:

@@ -20,7 +20,7 @@ from hopper_data.files import replacing
 from hopper_data.inputs import Case
 
 # Nothing that varies between runs.
-_METADATA: dict[str, dict[str, None]] = {
+METADATA: dict[str, dict[str, None]] = {
     ".png": {"Software": None},
     ".pdf": {"CreationDate": None, "Producer": None, "Creator": None},
     ".svg": {"Date": None, "Creator": None},
@@ -49,7 +49,7 @@ def write(path: Path, case: Case, found: Part) -> None:
         )
         figure.suptitle(words, fontsize=8)
         with replacing(path) as temporary:
-            figure.savefig(temporary, metadata=_METADATA[path.suffix.lower()])
+            figure.savefig(temporary, metadata=METADATA[path.suffix.lower()])
 
 
 def _spectrum(figure: Figure, found: StabilityAssessment | CoupledStability) -> None:

@@ -8,13 +8,21 @@ import json
 import os
 import sys
 from collections.abc import Sequence
+from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from typing import NoReturn
 
-import hopper
 from hopper.errors import HopperError, InvalidParameterError
-from hopper_cli import design_options, hints, march_options, sheet_options, values
+from hopper_cli import (
+    about,
+    chart_options,
+    design_options,
+    hints,
+    march_options,
+    sheet_options,
+    values,
+)
 from hopper_cli.errors import UsageError
 from hopper_cli.outputs import FileError, checked
 
@@ -25,12 +33,19 @@ EXAMPLES = {
     "stability": "hopper stability --geometry cone --delta 40 --half-angle 20 --mu 0.3",
     "neutral": "hopper neutral --geometry cone --half-angle 10 --phi 10",
     "table": "hopper table hoppers.csv --out results.csv",
+    "chart": "hopper chart --geometry cone --delta 42 --out chart.png",
     "design": "hopper design --geometry cone --delta 40 --phi 16",
     "march": "hopper march --geometry wedge --delta 45 --half-angle 15 --mu 0.2 --top bump-s "
     "--eps 0.2 --depth 1",
 }
 # The extra of the distribution and its libraries that a file of this suffix needs.
-_LIBRARIES = {".csv": ("", list[str]()), ".nc": ("data", ["xarray", "netCDF4"])}
+_LIBRARIES = {
+    ".csv": ("", list[str]()),
+    ".xlsx": ("data", ["openpyxl"]),
+    ".nc": ("data", ["xarray", "netCDF4"]),
+}
+# What answers a command, where that is no part of `commands`.
+_MODULES = {"design": "designs", "table": "sheets", "chart": "charts"}
 _EXIT_CODES = """\
 exit codes:
   0 answered, 1 there is no answer (the reason is on stderr), 2 wrong options or files"""
@@ -67,9 +82,7 @@ def _run(arguments: Sequence[str]) -> int:
         options.doubts = doubts = hints.doubts(options)
         _check(options)
         # Only now: the numerics take most of the time.
-        from hopper_cli import commands
-
-        answer = commands.answer(options)
+        answer = _answer(options)
     except SystemExit as finished:  # --help and --version
         return int(finished.code or 0)
     except HopperError as error:
@@ -83,6 +96,16 @@ def _run(arguments: Sequence[str]) -> int:
         print(f"hopper: warning: {doubt}", file=sys.stderr)
     print(answer, flush=True)
     return 0
+
+
+def _answer(options: argparse.Namespace) -> str:
+    module = import_module(f"hopper_cli.{_MODULES.get(options.command, 'commands')}")
+    answer: str = module.answer(options)
+    if getattr(options, "explain", False):
+        from hopper_cli import documents
+
+        answer = documents.explained(answer)
+    return answer
 
 
 def _fail(message: str, code: int) -> int:
@@ -99,7 +122,7 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
-    parser.add_argument("--version", action="version", version=f"hopper {hopper.__version__}")
+    about.add(parser)
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     radial = _command(
         commands, "radial", "the radial solution: stresses, psi, velocity, flow factor, limits"
@@ -124,8 +147,15 @@ def _parser() -> argparse.ArgumentParser:
     _add_geometry_and_model(neutral)
     _add_half_angle_and_wall(neutral)
     _add_modes(stability, neutral, _add_design(commands))
-    sheet_options.add(_command(commands, "table", "the short answer about each hopper of a list"))
+    _add_files_of_answers(commands)
     return parser
+
+
+def _add_files_of_answers(commands: "argparse._SubParsersAction[_Parser]") -> None:
+    sheet_options.add(_command(commands, "table", "the short answer about each hopper of a list"))
+    chart_options.add(
+        _command(commands, "chart", "the design chart of a material: limits of walls, flow factors")
+    )
 
 
 def _add_design(commands: "argparse._SubParsersAction[_Parser]") -> argparse.ArgumentParser:
@@ -192,8 +222,8 @@ def _command(
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
-    # The answers of a list are files.
-    if name == "table":
+    # The answers of these are files.
+    if name in ("table", "chart"):
         return command
     command.add_argument(
         "--json",
@@ -241,8 +271,12 @@ def _check(options: argparse.Namespace) -> None:
     """
     if options.command == "table":
         sheet_options.check(options)
-        if options.out.suffix.lower() == ".nc":
-            _require_libraries("--out", ".nc")
+        if options.out.suffix.lower() in _LIBRARIES:
+            _require_libraries("--out", options.out.suffix.lower())
+        return
+    if options.command == "chart":
+        chart_options.check(options)
+        _require_libraries("--out", options.out.suffix.lower())
         return
     if options.explain and options.json:
         raise UsageError("argument --explain: explains text: leave out --json")

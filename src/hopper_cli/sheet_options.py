@@ -8,7 +8,7 @@ from hopper_cli import values
 from hopper_cli.errors import UsageError
 from hopper_cli.outputs import FileError, checked
 
-_SUFFIXES = (".csv", ".json", ".nc")
+_SUFFIXES = (".csv", ".xlsx", ".json", ".nc")
 
 
 def add(command: argparse.ArgumentParser) -> None:
@@ -25,7 +25,15 @@ def add(command: argparse.ArgumentParser) -> None:
         type=Path,
         required=True,
         metavar="FILE",
-        help="write the answers to FILE.csv, .json or .nc",
+        help="write the answers to FILE.csv, .xlsx, .json or .nc",
+    )
+    command.add_argument(
+        "--columns",
+        type=lambda text: [name.strip() for name in text.split(",") if name.strip()],
+        default=[],
+        metavar="NAMES",
+        help="more columns, with commas: radial, limits, transients, design, or single ones of "
+        "theirs as JSON calls them",
     )
     command.add_argument(
         "--cores",

@@ -7,9 +7,12 @@ import multiprocessing
 import os
 import sys
 from argparse import Namespace
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
+from dataclasses import replace
+from itertools import chain, repeat
+from math import isfinite
 from pathlib import Path
 from time import monotonic
 from typing import Any
@@ -17,14 +20,11 @@ from typing import Any
 from hopper.design.judgement import Judgement, judge_hopper
 from hopper.errors import HopperError
 from hopper_cli import sentences
+from hopper_cli.columns import SHORT, Columns
 from hopper_cli.errors import UsageError
 from hopper_data.files import replacing
 from hopper_data.hopper_lists import HopperList, ListError, harmless, read_hoppers
 
-COLUMNS = (
-    *("sentence", "verdict", "abscissa", "abscissa_error", "governed_by", "flow_factor"),
-    *("flow_factor_error", "reason"),
-)
 # Rows of a task, and seconds between two reports of progress.
 _TASK, _BETWEEN = 20, 1.0
 _Answer = dict[str, Any]
@@ -42,12 +42,13 @@ def answer(options: Namespace) -> str:
         hoppers = read_hoppers(options.list)
     except ListError as error:
         raise UsageError(f"argument LIST: {error}") from None
-    taken = [title for title in hoppers.titles if title in COLUMNS]
+    columns = Columns(options.columns)
+    taken = [title for title in hoppers.titles if title in columns.titles]
     if taken:
         raise UsageError(f"argument LIST: the column {taken[0]} is one of the answer's: rename it")
     try:
-        answers = _answered(hoppers, options.out, options.cores)
-        _write(options.out, hoppers, answers)
+        answers = _answered(hoppers, columns, options.out, options.cores)
+        _write(options.out, hoppers, columns, answers)
     except OSError as error:
         raise UsageError(f"argument --out: {options.out} cannot be written: {error}") from error
     without = sum(not each["verdict"] for each in answers)
@@ -55,14 +56,14 @@ def answer(options: Namespace) -> str:
     return f"{len(answers)} hoppers answered in {options.out}{rest}."
 
 
-def row_answer(hoppers: HopperList, row: int) -> _Answer:
+def row_answer(hoppers: HopperList, row: int, columns: Columns) -> _Answer:
     """Return the answer about a row by the names of its columns, None for what does not exist."""
     try:
         case, disturbances = hoppers.case(row)
         found = judge_hopper(case.material, case.hopper.half_angle, disturbances)
     except HopperError as error:
-        return {**dict.fromkeys(COLUMNS), "reason": str(error)}
-    return _cells(found)
+        return {**dict.fromkeys(columns.titles), "reason": str(error)}
+    return columns.fill(_cells(found), case, disturbances)
 
 
 def _cells(found: Judgement) -> _Answer:
@@ -77,20 +78,22 @@ def _cells(found: Judgement) -> _Answer:
         found.flow_factor and found.flow_factor.error,
         found.reason or None,
     )
-    return dict(zip(COLUMNS, values, strict=True))
+    return dict(zip(SHORT, values, strict=True))
 
 
-def _answered(hoppers: HopperList, out: Path, cores: int) -> list[_Answer]:
+def _answered(hoppers: HopperList, columns: Columns, out: Path, cores: int) -> list[_Answer]:
     """Answer what a run that was stopped has not, and keep each answer at once."""
     journal = out.with_name(f".{out.name}.journal")
-    mark = hashlib.sha256(repr((hoppers.titles, hoppers.rows, COLUMNS)).encode()).hexdigest()
+    mark = hashlib.sha256(repr((hoppers.titles, hoppers.rows, columns.titles)).encode()).hexdigest()
     known = _kept(journal, mark)
     missing = [row for row in range(len(hoppers.rows)) if row not in known]
+    # Hoppers of one material have fields in common that are kept.
+    missing.sort(key=hoppers.material)
     with journal.open("a" if known else "w", encoding="utf-8") as file:
         if not known:
             file.write(f"{mark}\n")
         try:
-            for row, found in _computed(hoppers, missing, cores):
+            for row, found in _computed(hoppers, columns, missing, cores):
                 known[row] = found
                 file.write(json.dumps([row, found]) + "\n")
                 file.flush()
@@ -121,12 +124,15 @@ def _kept(journal: Path, mark: str) -> dict[int, _Answer]:
     return found
 
 
-def _computed(hoppers: HopperList, rows: list[int], cores: int) -> Iterator[tuple[int, _Answer]]:
+def _computed(
+    hoppers: HopperList, columns: Columns, rows: list[int], cores: int
+) -> Iterator[tuple[int, _Answer]]:
     tasks = [rows[start : start + _TASK] for start in range(0, len(rows), _TASK)]
+    lists = (replace(hoppers, rows=tuple(hoppers.rows[row] for row in task)) for task in tasks)
     done, due = 0, monotonic() + _BETWEEN
     with _workers(min(cores, len(tasks))) as each:
-        for found in each(_task, [hoppers] * len(tasks), tasks):
-            yield from found
+        for task, found in zip(tasks, each(_task, lists, repeat(columns)), strict=True):
+            yield from zip(task, found, strict=True)
             done += len(found)
             if sys.stderr.isatty() and monotonic() >= due:
                 due = monotonic() + _BETWEEN
@@ -134,7 +140,7 @@ def _computed(hoppers: HopperList, rows: list[int], cores: int) -> Iterator[tupl
 
 
 @contextmanager
-def _workers(count: int) -> Iterator[Callable[..., Iterable[list[tuple[int, _Answer]]]]]:
+def _workers(count: int) -> Iterator[Callable[..., Iterable[list[_Answer]]]]:
     """Yield a map in this process, or in several where there is work for them."""
     if count < 2:
         yield map
@@ -148,26 +154,48 @@ def _workers(count: int) -> Iterator[Callable[..., Iterable[list[tuple[int, _Ans
         pool.shutdown(cancel_futures=True)
 
 
-def _task(hoppers: HopperList, rows: list[int]) -> list[tuple[int, _Answer]]:
-    return [(row, row_answer(hoppers, row)) for row in rows]
+def _task(hoppers: HopperList, columns: Columns) -> list[_Answer]:
+    return [row_answer(hoppers, row, columns) for row in range(len(hoppers.rows))]
 
 
-def _write(out: Path, hoppers: HopperList, answers: list[_Answer]) -> None:
-    rows = [{**inputs, **answered} for inputs, answered in zip(hoppers.rows, answers, strict=True)]
-    titles = (*hoppers.titles, *COLUMNS)
+def _write(out: Path, hoppers: HopperList, columns: Columns, answers: list[_Answer]) -> None:
+    titles = (*hoppers.titles, *columns.titles)
+    rows = ({**inputs, **found} for inputs, found in zip(hoppers.rows, answers, strict=True))
     with replacing(out) as temporary:
         if out.suffix.lower() == ".json":
-            temporary.write_text(json.dumps(rows, indent=2) + "\n", encoding="utf-8")
+            temporary.write_text(json.dumps(list(rows), indent=2) + "\n", encoding="utf-8")
         elif out.suffix.lower() == ".nc":
             from hopper_data import sheets
 
-            sheets.write(temporary, titles, rows)
+            sheets.write(temporary, titles, list(rows))
         else:
-            with temporary.open("w", newline="", encoding="utf-8") as file:
-                writer = csv.writer(file, lineterminator="\n")
-                writer.writerow(titles)
-                writer.writerows([_cell(row[title]) for title in titles] for row in rows)
+            cells = ([_cell(row[title]) for title in titles] for row in rows)
+            _spread(temporary, chain([titles], cells))
     out.with_name(f".{out.name}.journal").unlink(missing_ok=True)
+
+
+def _spread(path: Path, rows: Iterable[Sequence[Any]]) -> None:
+    """Write rows for spreadsheets."""
+    if path.suffix.lower() == ".xlsx":
+        from openpyxl import Workbook
+
+        book = Workbook(write_only=True)
+        sheet = book.create_sheet("hoppers")
+        for row in rows:
+            sheet.append([_number(cell) for cell in row])
+        book.save(path)
+        return
+    with path.open("w", newline="", encoding="utf-8") as file:
+        csv.writer(file, lineterminator="\n").writerows(rows)
+
+
+def _number(cell: Any) -> Any:
+    """Return the number that a text spells, others as they are: a workbook knows numbers."""
+    try:
+        number = float(cell)
+    except (TypeError, ValueError):
+        return cell
+    return number if isfinite(number) else cell
 
 
 def _cell(value: Any) -> Any:

@@ -29,6 +29,11 @@ class HopperList:
 
     __repr__ = brief("titles")
 
+    def material(self, row: int) -> tuple[str, str]:
+        """Return the cells of geometry and delta of a row."""
+        cells = self.rows[row]
+        return cells[self.options["geometry"]], cells[self.options["delta"]]
+
     def case(self, row: int) -> tuple[Case, Disturbances | None]:
         """Return the hopper of a row, and the disturbances it asks for.
 

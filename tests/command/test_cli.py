@@ -18,7 +18,7 @@ from hopper import Hopper, __version__
 from hopper.assessment.radial import assess_radial
 from hopper.assessment.stability import assess_stability
 from hopper.errors import ConvergenceError, not_resolved_because
-from hopper_cli import commands, text
+from hopper_cli import about, commands, text
 from hopper_cli.main import EXAMPLES
 
 HOPPER = str(Path(sys.executable).with_name("hopper"))
@@ -353,11 +353,13 @@ def test_the_example_in_the_help_runs(run, command, tmp_path, monkeypatch):
     (example,) = re.findall(rf"^  (hopper {command} .*)$", out, re.MULTILINE)
     code, out, err = run(example.removeprefix("hopper "))
     assert (code, err) == (0, "")
-    assert "+-" in out or Path("results.csv").is_file()
+    assert "+-" in out or Path("results.csv").is_file() or Path("chart.png").is_file()
 
 
 def test_version_and_help(run):
-    assert run("--version") == (0, f"hopper {__version__}\n", "")
+    code, out, err = run("--version")
+    assert (code, err) == (0, "")
+    assert re.fullmatch(rf"hopper {re.escape(__version__)}( \(commit \S+\))?\n", out)
     code, out, _ = run("--help")
     assert code == 0
     assert all(command in out for command in EXAMPLES)
@@ -757,6 +759,23 @@ def test_a_plain_answer_imports_no_more_than_it_needs(command):
 
 def test_help_imports_no_numerics():
     assert not loaded_by("radial --help") & {"numpy", "scipy"}
+
+
+def test_the_version_names_the_commit_of_a_clone(tmp_path):
+    git = ["git", "-C", str(tmp_path), "-c", "user.name=n", "-c", "user.email=e"]
+    assert about.commit(tmp_path) == ""
+    for command in (["init", "-q"], ["commit", "-q", "--allow-empty", "-m", "first"]):
+        subprocess.run([*git, *command], check=True)
+    assert re.fullmatch(r" \(commit [0-9a-f]{12}\)", about.commit(tmp_path))
+
+
+@pytest.mark.parametrize("shell", about.SHELLS)
+def test_shells_complete_commands_and_options(run, shell):
+    pytest.importorskip("shtab")
+    code, out, _ = run(f"--print-completion {shell}")
+    assert code == 0
+    for word in ("radial", "chart", "half-angle", "geometry", "von-mises"):
+        assert word in out
 
 
 def test_the_installed_command():

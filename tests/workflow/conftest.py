@@ -25,6 +25,9 @@ PARTS = ("Snakefile", "config.yaml", "workflow", "scripts", "src", "envs", "prof
 # Numbers that make every rule run in about a second.
 COARSE: dict[str, Any] = {
     "fig_jenike.friction_angles_deg.step": 10,
+    "design_charts.deltas_deg": [40],
+    "design_charts.half_angles_deg.points": 3,
+    "design_charts.frictions": 4,
     "smooth_wall.half_angles_deg.step": 9,
     "spectra.fig_4_2.nodes": 80,
     "spectra.fig_4_2.coarse_nodes": 40,

@@ -339,6 +339,8 @@ RELATED = [
     ("stability_map.half_angles_deg", [10, 10.0], "'stability_map.half_angles_deg': [10, 10.0]"),
     ("borders.check.coarse_nodes", 400, "'borders.check.coarse_nodes': 400 is not below nodes"),
     ("fig_jenike.friction_angles_deg.step", 30.0, None),
+    ("design_charts.half_angles_deg.stop", 0.5, "'design_charts.half_angles_deg.stop': 0.5"),
+    ("design_charts.flow_factors", [1.0], "'design_charts.flow_factors[0]': 1.0 is less than"),
     ("fig_jenike.friction_angles_deg.stop", 20, None),
     ("smooth_wall.delta_deg.stop", 0.25, "'smooth_wall.delta_deg.step': 0.5 must not exceed stop"),
     ("spectra.fig_4_2.nodes", 400.0, "'spectra.fig_4_2.nodes': 400.0 is not of type 'integer'"),

@@ -5,7 +5,7 @@ All are functions of the half angle at given delta and wall friction, so that an
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import degrees, isnan, nan, pi, radians
+from math import degrees, isnan, nan, pi
 from typing import Literal, TypeVar, get_args
 
 import numpy as np
@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 
 from hopper.arguments import checked
 from hopper.arrays import Array
-from hopper.assessment.propagation import ROUNDING, with_errors
+from hopper.assessment.propagation import ROUNDING
 from hopper.assessment.stability import abscissa_with_error
 from hopper.brief import brief
 from hopper.design.material import NARROWEST, Material
@@ -26,7 +26,7 @@ from hopper.errors import (
     NowhereError,
 )
 from hopper.quantity import Quantity
-from hopper.radial.collocation import largest_psi
+from hopper.radial.flow_curve import WIDEST, flow_curve
 from hopper.radial.friction_limit import friction_limit
 from hopper.radial.mass_flow import mass_flow_half_angle
 from hopper.radial.members import physical_member
@@ -37,14 +37,12 @@ Limit = Literal["classical", "limit", "velocity", "stability"]
 LIMITS: tuple[Limit, ...] = get_args(Limit)
 _Found = TypeVar("_Found")
 
-# The widest half angle looked at, and where roots end (radians).
-_WIDEST, _ROOT = radians(89), 1e-12
+# Where roots end (radians).
+_ROOT = 1e-12
 # Half angles at which stability is looked at, and how far below the limit of friction the last may
 # be, relative: the first of these at which fields are resolved.
 _SAMPLES, _BELOW = 16, (1e-8, 1e-6, 1e-4, 1e-2, 0.05, 0.2)
-# Largest step in the half angle towards psi = pi/4, and how far beyond it the slope's aims.
-_STRIDE, _OVERSHOOT = radians(10), 1.1
-# How close to the limit of friction is as good as there, relative.
+# Relative distance of tau within which two members are one.
 _CLOSE = 1e-3
 # Step for slopes, radians.
 _STEP = 1e-6
@@ -117,9 +115,7 @@ def half_angles(material: Material, disturbances: Disturbances | None = None) ->
     notes: dict[Limit, str] = {}
     classical = _noted(notes, "classical", lambda: _classical(material))
     limit = _noted(notes, "limit", lambda: _limit(material))
-    # A limit that is not there is none at all only where no wall is too wide.
-    widest = limit.value if limit else _WIDEST
-    velocity = _noted(notes, "velocity", lambda: _velocity(material, widest))
+    velocity = _noted(notes, "velocity", lambda: _velocity(material))
     stable = _noted(notes, "stability", lambda: _stable(material, limit, disturbances))
     least, stability = stable or (None, None)
     name: Limit = "classical" if _slips(material) else "velocity"
@@ -151,7 +147,7 @@ def flow_limit(material: Material) -> Quantity:
     ConvergenceError
         If it is not resolved.
     """
-    return _classical(material) if _slips(material) else _velocity(material, _WIDEST)
+    return _classical(material) if _slips(material) else _velocity(material)
 
 
 def _slips(material: Material) -> bool:
@@ -194,9 +190,9 @@ def _limit(material: Material) -> Quantity:
 
     if excess(NARROWEST) <= 0:
         raise NowhereError("no half angle has a radial solution with this wall")
-    if excess(_WIDEST) > 0:
+    if excess(WIDEST) > 0:
         raise NoLimitError("radial solutions exist at every half angle")
-    root = brentq(excess, NARROWEST, _WIDEST, xtol=_ROOT)
+    root = brentq(excess, NARROWEST, WIDEST, xtol=_ROOT)
     try:
         here, before = (friction_limit(material.hopper(angle)) for angle in (root, root - _STEP))
     except NoRadialSolutionError:  # a smooth wall, of which the limit is where the family ends
@@ -205,47 +201,24 @@ def _limit(material: Material) -> Quantity:
     return Quantity(root, here.error_estimate / slope + _ROOT + ROUNDING if slope else _STEP)
 
 
-def _velocity(material: Material, widest: float) -> Quantity:
-    """Walk up to psi = pi/4 by steps that its slope suggests, then converge."""
-
-    # Of members: psi does not ask for a positive stress, which narrow wedges may lack.
-    def excess(half_angle: float) -> float:
-        member = physical_member(material.hopper(half_angle), material.friction_angle)
-        if member is None:
-            raise NoRadialSolutionError("no radial solution", None)
-        return largest_psi(member) - pi / 4
-
-    at, step, below = NARROWEST, _STRIDE, excess(NARROWEST)
-    if below >= 0:
+def _velocity(material: Material) -> Quantity:
+    hopper = material.hopper(NARROWEST)
+    psi_wall = hopper.material.wall_angle(hopper.delta, material.friction_angle)
+    if psi_wall >= pi / 4:
         raise NowhereError("radial flow reaches the wall at no half angle")
-    failure: HopperError = NoRadialSolutionError("", None)
-    end = widest * (1 - _BELOW[0])
-    while at < end and step > _CLOSE * at:
-        beyond = min(at + step, end)
-        try:
-            value = excess(beyond)
-        except (ConvergenceError, NoRadialSolutionError) as error:
-            failure, step = error, step / 4
-            continue
-        if value >= 0:
-            root = brentq(excess, at, beyond, xtol=_ROOT)
-            return _with_slope(material, root, excess(root - _STEP))
-        rise = max(value - below, -value * _CLOSE)
-        aimed = _OVERSHOOT * -value * (beyond - at) / rise
-        at, below = beyond, value
-        step = min(_STRIDE, max(aimed, 2 * _CLOSE * at))
-    if isinstance(failure, ConvergenceError):
-        raise ConvergenceError(f"not resolved beyond {degrees(at):.4g} deg")
-    raise NoLimitError("radial flow reaches the wall wherever it exists")
+    curve = flow_curve(hopper)
+    found = curve and curve.half_angle(psi_wall)
+    if not (curve and found and _physical(material, found.value, curve.member.tau)):
+        raise NoLimitError("radial flow reaches the wall wherever it exists")
+    return found
 
 
-def _with_slope(material: Material, root: float, before: float) -> Quantity:
-    """Return where psi = pi/4, with its error; ``before`` is psi - pi/4 a step before."""
-    (psi,) = with_errors(
-        material.solution(root), lambda solution: np.array(solution.psi_maximum()[1:])
-    )
-    off = psi.value - pi / 4
-    return Quantity(root, (abs(off) + psi.error) / ((off - before) / _STEP) + _ROOT)
+def _physical(material: Material, half_angle: float, tau: float) -> bool:
+    """Whether a hopper's member of that tau is the physical one; only cones have others."""
+    if not _slips(material):
+        return True
+    member = physical_member(material.hopper(half_angle), material.friction_angle)
+    return member is not None and abs(member.tau / tau - 1) < _CLOSE
 
 
 def _widest_solved(material: Material, widest: float) -> float:
@@ -275,7 +248,7 @@ def _stable(
         slope = abs(abscissa(found - _STEP) - here.value) / _STEP
         return Quantity(found, (abs(here.value) + here.error) / slope + _ROOT)
 
-    end = _widest_solved(material, limit.value) if limit else _WIDEST
+    end = _widest_solved(material, limit.value) if limit else WIDEST
     angles = np.linspace(NARROWEST, end, _SAMPLES)
     values = np.array([_or_nan(abscissa, angle) for angle in angles.tolist()])
     first, last = _last_run(values)

@@ -1,6 +1,7 @@
 """What fills a hopper, and its wall, whatever its half angle."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 from math import radians
 
 from hopper.arguments import Radians, checked
@@ -58,4 +59,9 @@ class Material:
     @checked
     def solution(self, half_angle: Radians) -> RadialSolution:
         """Return the radial solution at a half angle, as :func:`hopper.radial.solve_radial`."""
-        return solve_radial(self.hopper(half_angle), self.friction_angle)
+        return _solution(self, half_angle)
+
+
+@lru_cache(maxsize=64)
+def _solution(material: Material, half_angle: float) -> RadialSolution:
+    return solve_radial(material.hopper(half_angle), material.friction_angle)

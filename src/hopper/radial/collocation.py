@@ -161,14 +161,24 @@ def moved(u: Array, old: Grid, new: Grid) -> Array:
 @checked
 def largest_psi(member: Member) -> float:
     """Return the largest psi (radians) on [0, theta_w]."""
-    coefficients, angles, samples = _psi_samples(member.grid.size)
-    top = int((samples @ member.psi).argmax())
-    series = coefficients @ member.psi
+    top = top_of(member.psi)
+    return float(psi_row(member.grid.size, top) @ member.psi) if top else member.psi_wall
+
+
+@checked
+def top_of(psi: Row) -> float:
+    """Return where psi, given at the points of a grid, is largest: 0 at the wall, pi/2 on the axis.
+
+    The Chebyshev point of such an angle is its cosine.
+    """
+    coefficients, angles, samples = _psi_samples(psi.size)
+    top = int((samples @ psi).argmax())
+    series = coefficients @ psi
     odd = 2 * np.arange(series.size) + 1
-    angle, step = angles[top], angles[1]
+    angle, step = float(angles[top]), angles[1]
     if not top:
         if odd * odd @ series >= 0:
-            return member.psi_wall
+            return 0.0
         angle = step / 2  # psi falls towards the wall, from a maximum before it
     # Newton's iteration for the slope of the series of cos(odd * angle).
     for _ in range(_TO_MAXIMUM):
@@ -177,7 +187,13 @@ def largest_psi(member: Member) -> float:
         if bend <= 0 or abs(slope) < _FLAT * bend:
             break
         angle = min(max(angle - slope / bend, angles[top] - step), angles[top] + step)
-    return float(np.cos(odd * angle) @ series)
+    return float(angle)
+
+
+@checked
+def psi_row(size: int, angle: float) -> Array:
+    """Return the row from psi at ``size`` points to its value at an angle of :func:`top_of`."""
+    return np.cos(angle * (2 * np.arange(size) + 1)) @ _psi_samples(size)[0]
 
 
 @lru_cache(maxsize=64)

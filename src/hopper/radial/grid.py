@@ -7,7 +7,7 @@ References
 """
 
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import lru_cache
 from math import asin, asinh, hypot, sinh, tanh
 
 import numpy as np
@@ -21,6 +21,7 @@ from hopper.spectral import chebyshev
 # tau theta_w from which on the layer at the apex of a wedge has points of its own.
 _WEDGE_LAYER = 10.0
 _BISECTIONS = 60
+_PARITIES: tuple[chebyshev.Parity, ...] = ("even", "odd")
 
 
 @dataclass(frozen=True)
@@ -157,11 +158,9 @@ def half_grid(
 @checked
 def mapped_grid(size: int, half_angle: float, by: Map, *, centred: bool = False) -> Grid:
     """Return the grid of ``size`` points under a map, as :func:`half_grid`."""
-    y, stretch = by.forward(chebyshev.half_nodes(size, centred=centred))
-    theta, stretch = half_angle * y, half_angle * stretch
-    weights = chebyshev.clenshaw_curtis_weights(2 * size - centred)[-size:] * stretch
-    weights[0] /= 1 + centred  # half of the point on the axis belongs to the other side
-    derivative = partial(chebyshev.half_differentiation_matrix, size)
+    unit = _unit_grid if by.plain else _unit_grid.__wrapped__
+    y, stretch, weights, axis_row, d_even, d_odd = unit(size, by, centred)
+    theta = half_angle * y
     grid = Grid(
         half_angle=half_angle,
         map=by,
@@ -170,16 +169,30 @@ def mapped_grid(size: int, half_angle: float, by: Map, *, centred: bool = False)
         cot=np.divide(1.0, np.tan(theta), out=np.zeros(size), where=theta != 0),
         cos=np.cos(theta),
         sin=np.sin(theta),
-        d_even=derivative("even", centred=centred) / stretch[:, None],
-        d_odd=derivative("odd", centred=centred) / stretch[:, None],
-        stretch=stretch,
-        weights=weights,
-        axis_row=chebyshev.half_interpolation_matrix(size, 0.0, "even", centred=centred)[0],
+        d_even=d_even / half_angle,
+        d_odd=d_odd / half_angle,
+        stretch=half_angle * stretch,
+        weights=half_angle * weights,
+        axis_row=axis_row,
     )
     for value in vars(grid).values():
         if isinstance(value, np.ndarray):
             value.flags.writeable = False
     return grid
+
+
+@lru_cache(maxsize=256)
+def _unit_grid(size: int, by: Map, centred: bool) -> tuple[Array, ...]:
+    """Return what a grid of half angle 1 has, most of the work: sweeps change the half angle."""
+    y, stretch = by.forward(chebyshev.half_nodes(size, centred=centred))
+    weights = chebyshev.clenshaw_curtis_weights(2 * size - centred)[-size:] * stretch
+    weights[0] /= 1 + centred  # half of the point on the axis belongs to the other side
+    even, odd = (
+        chebyshev.half_differentiation_matrix(size, parity, centred=centred) / stretch[:, None]
+        for parity in _PARITIES
+    )
+    axis_row = chebyshev.half_interpolation_matrix(size, 0.0, "even", centred=centred)[0]
+    return y, stretch, weights, axis_row, even, odd
 
 
 @checked
@@ -200,20 +213,24 @@ def disc_weights(grid: Grid) -> Array:
 
 
 @checked
-@lru_cache(maxsize=512)
 def transfer(old: Grid, new: Grid, parity: chebyshev.Parity) -> Array:
     """Return the matrix, shape (m_new, m_old), from one grid to another.
 
     Functions are stretched where the half angles differ.
     """
     if old.map.plain and new.map.plain:
-        return _kept_transfer(old, new, parity)
+        key = (old.size, old.map, old.centred, new.size, new.map, new.centred)
+        return _kept_transfer(*key, parity)
     return old.interpolation(new.theta * (old.half_angle / new.half_angle), parity)
 
 
 @lru_cache(maxsize=512)
-def _kept_transfer(old: Grid, new: Grid, parity: chebyshev.Parity) -> Array:
-    matrix = old.interpolation(new.theta * (old.half_angle / new.half_angle), parity)
+def _kept_transfer(
+    size: int, by: Map, centred: bool, other: int, to: Map, midpoint: bool, parity: chebyshev.Parity
+) -> Array:
+    """Return the matrix between grids of any half angle."""
+    y, _ = to.forward(chebyshev.half_nodes(other, centred=midpoint))
+    matrix = chebyshev.half_interpolation_matrix(size, by.inverse(y), parity, centred=centred)
     matrix.flags.writeable = False
     return matrix
 

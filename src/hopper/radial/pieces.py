@@ -196,11 +196,13 @@ def _steady(members: list[Member]) -> bool:
     limit, s = limiting_wall_angle(last.hopper), last.hopper.s
     if last.tau * last.hopper.half_angle < _THIN_LAYER:
         return False
-    distance = last.psi_wall - limit
+    distance, earlier = last.psi_wall - limit, before.psi_wall - limit
     if max(abs(distance), abs(last.slope)) < _AT_LIMIT:
         return True
     rates = 3.0, (3 * s - 1) / max(2 * s - 1, 1e-12)
-    rate, old = -last.slope / distance, -before.slope / (before.psi_wall - limit)
+    if not earlier:  # a smooth wall at the half angle up to which there is mass flow
+        return False
+    rate, old = -last.slope / distance, -before.slope / earlier
     steady = abs(rate - old) < _STEADY * log(last.tau / before.tau)
     at_rate = steady and abs(rate / min(rates) - 1) < _AT_RATE
     return 0 < rate < max(rates) and (at_rate or rate < old)
