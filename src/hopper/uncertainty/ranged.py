@@ -1,0 +1,279 @@
+"""Answers about a hopper whose numbers are known in ranges: intervals, shares, probabilities."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from itertools import product
+from math import nan, tan
+
+import numpy as np
+
+from hopper.arguments import checked
+from hopper.arrays import Array
+from hopper.assessment.limits import assess_limits, tangency_coefficient
+from hopper.assessment.propagation import with_errors
+from hopper.assessment.radial import wall_velocity
+from hopper.brief import brief
+from hopper.design.flow_pattern import FlowPattern
+from hopper.domain.borders import tangency_friction
+from hopper.errors import HopperError
+from hopper.problem import Hopper
+from hopper.quantity import Quantity
+from hopper.radial.flow_factor import flow_factor
+from hopper.radial.friction_limit import friction_limit
+from hopper.radial.mass_flow import mass_flow_friction_angle
+from hopper.radial.solution import RadialSolution
+from hopper.radial.velocity import solve_velocity
+from hopper.stability.modes import Disturbances, LinearStability
+from hopper.uncertainty.box import Box
+from hopper.uncertainty.extremes import Extreme, extremes
+from hopper.uncertainty.hoppers import Hoppers
+from hopper.uncertainty.sampling import Share, cut_off, normal_points, points_in_box, shares
+
+# Points of each shift, as a power of 2: of verdicts, and of mass flow where it has a closed form.
+_POWER = 5
+# Of the first shift, those from which the search for extremes may start.
+_STARTS = 16
+
+
+@dataclass(frozen=True)
+class Interval:
+    """The least and the largest value over a box, with what is uncertain of each."""
+
+    low: Quantity
+    high: Quantity
+
+    __repr__ = brief("low", "high")
+
+
+@dataclass(frozen=True)
+class Ranged:
+    """An answer over a box.
+
+    Attributes
+    ----------
+    pattern : FlowPattern
+        In the middle of the box.
+    numbers : dict
+        Intervals by name, over the part of the box in which the number exists.
+    shares : dict
+        Of the box, by what holds there.
+    probabilities : dict or None
+        The same for independent normal values, where that was asked for.
+    cut_off : float
+        Probability of values that are impossible, and left out.
+    """
+
+    pattern: FlowPattern
+    numbers: dict[str, Interval]
+    shares: dict[str, Share]
+    probabilities: dict[str, Share] | None
+    cut_off: float
+
+    __repr__ = brief("pattern.mass_flow", "shares")
+
+
+@dataclass(frozen=True)
+class _Number:
+    """A number at a point of a box, its error there, and the ranges on which it depends."""
+
+    value: Callable[[Array], float]
+    error: Callable[[Array], float]
+    depends: tuple[str, ...] = ("delta", "wall", "half_angle")
+
+
+@checked
+def radial_over(box: Box, normal: bool = False) -> Ranged:
+    """Return the numbers and limits of the radial solution over a box.
+
+    ``normal`` asks for probabilities: means in the middle, the box one standard deviation around.
+
+    Raises
+    ------
+    InvalidParameterError
+        If the box is a single hopper.
+    """
+    hoppers = Hoppers(box)
+    numbers = {name: _of_solution(hoppers, number) for name, number in _RADIAL.items()}
+    numbers["u_wall"] = _velocity(hoppers)
+    numbers |= _limits(hoppers)
+    return _answer(hoppers, numbers, hoppers.radial_labels, normal)
+
+
+@checked
+def stability_over(
+    box: Box, disturbances: Disturbances | None = None, normal: bool = False
+) -> Ranged:
+    """Return the abscissae and verdicts of stability over a box, as :func:`radial_over`.
+
+    ``disturbances`` as in :func:`hopper.stability.modes.linear_stability`.
+
+    Raises
+    ------
+    InvalidParameterError
+        If the box is a single hopper, of another than Mohr-Coulomb material, or asymmetric
+        disturbances of a cone are asked for.
+    """
+    hoppers = Hoppers(box, disturbances)
+    hoppers.stability(box.middle)
+    numbers = {
+        "line": _of_modes(hoppers, lambda found: (found.line.abscissa, found.line.error_estimate)),
+        "abscissa": _of_modes(hoppers, lambda found: (found.abscissa, found.error_estimate)),
+        "symmetric": _of_modes(hoppers, lambda found: found.symmetric),
+        "asymmetric": _of_modes(hoppers, lambda found: found.asymmetric or (nan, nan)),
+        "tangency": _limits(hoppers)["tangency"],
+    }
+    return _answer(hoppers, numbers, hoppers.stability_labels, normal)
+
+
+def _answer(
+    hoppers: Hoppers,
+    numbers: dict[str, _Number],
+    labels: Callable[[Array], Iterable[str]],
+    normal: bool,
+) -> Ranged:
+    box = hoppers.box
+    points = points_in_box(len(box.ranged), _POWER)
+    found = shares(labels, points)
+    numbers = {"spare": _spare(hoppers), **numbers}
+    starts = points[0, :_STARTS]
+    intervals = {name: _interval(box, number, starts) for name, number in numbers.items()}
+    known = {name: interval for name, interval in intervals.items() if interval}
+    if "spare" in known:
+        found = _confirmed(found, known["spare"])
+    probabilities = shares(labels, normal_points(points, box.possible)) if normal else None
+    missing = cut_off(box.possible) if normal else 0.0
+    return Ranged(hoppers.pattern(box.middle), known, found, probabilities, missing)
+
+
+def _confirmed(found: dict[str, Share], spare: Interval) -> dict[str, Share]:
+    """Return the shares with that of mass flow for certain, where the half angle to spare says."""
+    sampled = found.get("mass_flow", Share(0.0, 0.0)).value
+    if sampled == 1 and spare.low.value > spare.low.error:
+        return found | {"mass_flow": Share(1.0, 0.0)}
+    return found
+
+
+def _interval(box: Box, number: _Number, starts: Array) -> Interval | None:
+    """Return the interval of a number over the ranges on which it depends."""
+    own = [i for i, name in enumerate(box.ranged) if name in number.depends]
+
+    def lifted(part: Array) -> Array:
+        point = box.middle.copy()
+        point[own] = part
+        return point
+
+    lattice = np.array(list(product((0.0, 0.5, 1.0), repeat=len(own)))).reshape(-1, len(own))
+    samples = lattice
+    if len(own) == len(box.ranged):
+        samples = np.concatenate([lattice, starts])
+    ends = extremes(lambda part: number.value(lifted(part)), samples)
+    if ends is None:
+        return None
+
+    def quantity(end: Extreme) -> Quantity:
+        return Quantity(end.value, end.error + number.error(lifted(end.at)))
+
+    return Interval(*map(quantity, ends))
+
+
+def _of_solution(hoppers: Hoppers, number: Callable[[RadialSolution], float]) -> _Number:
+    def value(point: Array) -> float:
+        solution = hoppers.solved(point)
+        return nan if isinstance(solution, str) else number(solution)
+
+    def error(point: Array) -> float:
+        solution = hoppers.solved(point)
+        if isinstance(solution, str):
+            return nan
+        return with_errors(solution, lambda one: np.array([number(one)]))[0].error
+
+    return _Number(value, error)
+
+
+_RADIAL: dict[str, Callable[[RadialSolution], float]] = {
+    "sigma_axis": lambda solution: solution.sigma_axis,
+    "sigma_wall": lambda solution: solution.sigma_wall,
+    "psi_wall": lambda solution: solution.psi_wall,
+    "psi_max": lambda solution: solution.psi_maximum()[1],
+    "theta_psi_max": lambda solution: solution.psi_maximum()[0],
+    "flow_factor": flow_factor,
+}
+
+
+def _velocity(hoppers: Hoppers) -> _Number:
+    def value(point: Array) -> float:
+        solution = hoppers.solved(point)
+        try:
+            return nan if isinstance(solution, str) else solve_velocity(solution).wall
+        except HopperError:
+            return nan
+
+    def error(point: Array) -> float:
+        solution = hoppers.solved(point)
+        return nan if isinstance(solution, str) else wall_velocity(solution)[1].error
+
+    return _Number(value, error)
+
+
+def _spare(hoppers: Hoppers) -> _Number:
+    def error(point: Array) -> float:
+        quantity = hoppers.pattern(point).spare
+        return quantity.error if quantity else nan
+
+    return _Number(hoppers.half_angle_to_spare, error)
+
+
+def _of_modes(
+    hoppers: Hoppers, numbers: Callable[[LinearStability], tuple[float, float]]
+) -> _Number:
+    def at(point: Array) -> tuple[float, float]:
+        found = hoppers.stability(point)
+        return (nan, nan) if isinstance(found, str) else numbers(found)
+
+    return _Number(lambda point: at(point)[0], lambda point: at(point)[1])
+
+
+def _limits(hoppers: Hoppers) -> dict[str, _Number]:
+    """Return the limits of friction, on which the wall of the hopper itself has no influence."""
+
+    def at(point: Array) -> Hopper:
+        material, half_angle = hoppers.box.hopper(point)
+        return material.hopper(half_angle)
+
+    def number(value: Callable[[Hopper], float], name: str) -> _Number:
+        def found(point: Array) -> float:
+            try:
+                return value(at(point))
+            except HopperError:
+                return nan
+
+        def error(point: Array) -> float:
+            quantity = _LIMIT_ERRORS[name](at(point))
+            return quantity.error if quantity else nan
+
+        return _Number(found, error, ("delta", "half_angle"))
+
+    return {
+        "coefficient": number(lambda one: tan(friction_limit(one).friction_angle), "coefficient"),
+        "fold": number(_fold, "fold"),
+        "mass_flow": number(mass_flow_friction_angle, "mass_flow"),
+        "tangency": number(_tangency, "tangency"),
+    }
+
+
+_LIMIT_ERRORS: dict[str, Callable[[Hopper], Quantity | None]] = {
+    "coefficient": lambda hopper: assess_limits(hopper).coefficient,
+    "fold": lambda hopper: assess_limits(hopper).fold,
+    "mass_flow": lambda hopper: assess_limits(hopper).mass_flow,
+    "tangency": tangency_coefficient,
+}
+
+
+def _fold(hopper: Hopper) -> float:
+    limit = friction_limit(hopper)
+    return tan(limit.friction_angle) if limit.end == "fold" else nan
+
+
+def _tangency(hopper: Hopper) -> float:
+    phi = tangency_friction(hopper)
+    return nan if phi is None else tan(phi)
