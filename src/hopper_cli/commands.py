@@ -20,7 +20,7 @@ from hopper.errors import ConvergenceError, NoRadialSolutionError, WallFrictionE
 from hopper.problem import as_geometry
 from hopper.radial.solution import solve_radial
 from hopper.stability.collocation import Parity
-from hopper_cli import designs, documents, progress, sentences, sheets, text, written
+from hopper_cli import designs, documents, progress, ranges, sentences, sheets, text, written
 from hopper_cli.errors import UsageError
 from hopper_data import assessments, tables
 from hopper_data.inputs import Case, Wall
@@ -50,8 +50,22 @@ def answer(options: Namespace) -> str:
         "design": designs.answer,
         "table": sheets.answer,
     }
-    found = commands[options.command](options)
+    found = _over_ranges(options) or commands[options.command](options)
     return documents.explained(found) if getattr(options, "explain", False) else found
+
+
+def _over_ranges(options: Namespace) -> str:
+    """Return the answer of ranges or steps, nothing where all options are numbers."""
+    # Imported where they are asked for: sampling takes a second.
+    if ranges.of_kind(options, ranges.Given):
+        from hopper_cli import range_answers
+
+        return range_answers.answer(options)
+    if ranges.of_kind(options, ranges.Steps):
+        from hopper_cli import sweeps
+
+        return sweeps.answer(options)
+    return ""
 
 
 def _radial(options: Namespace) -> str:

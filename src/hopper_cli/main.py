@@ -7,14 +7,14 @@ import argparse
 import json
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from typing import NoReturn
 
 import hopper
 from hopper.errors import HopperError, InvalidParameterError
-from hopper_cli import design_options, hints, march_options, sheet_options, values
+from hopper_cli import design_options, hints, march_options, ranges, sheet_options, values
 from hopper_cli.errors import UsageError
 from hopper_cli.outputs import FileError, checked
 
@@ -30,7 +30,11 @@ EXAMPLES = {
     "--eps 0.2 --depth 1",
 }
 # The extra of the distribution and its libraries that a file of this suffix needs.
-_LIBRARIES = {".csv": ("", list[str]()), ".nc": ("data", ["xarray", "netCDF4"])}
+_LIBRARIES = {
+    ".csv": ("", list[str]()),
+    ".json": ("", list[str]()),
+    ".nc": ("data", ["xarray", "netCDF4"]),
+}
 _EXIT_CODES = """\
 exit codes:
   0 answered, 1 there is no answer (the reason is on stderr), 2 wrong options or files"""
@@ -115,7 +119,7 @@ def _parser() -> argparse.ArgumentParser:
         (stability, "eigenvalues"),
         (march, "fields over depth and polar angle"),
     ):
-        _add_hopper(command)
+        _add_hopper(command, ranged=command is not march)
         _add_files(command, profile)
     march_options.add(march)
     neutral = _command(
@@ -132,8 +136,10 @@ def _add_design(commands: "argparse._SubParsersAction[_Parser]") -> argparse.Arg
     design = _command(
         commands, "design", "how wide a hopper may be for mass flow, and its smallest outlet"
     )
-    _add_material(design)
-    _add_wall(design)
+    _add_material(design, ranged=True)
+    _add_wall(design, ranged=True)
+    _add_ranges(design)
+    design.add_argument("--force", action="store_true", help="overwrite an existing file")
     design_options.add(design)
     return design
 
@@ -155,19 +161,37 @@ def _add_modes(stability: argparse.ArgumentParser, *others: argparse.ArgumentPar
         )
 
 
-def _add_hopper(command: argparse.ArgumentParser) -> None:
-    _add_material(command)
-    _add_half_angle_and_wall(command)
+def _add_hopper(command: argparse.ArgumentParser, *, ranged: bool) -> None:
+    _add_material(command, ranged=ranged)
+    _add_half_angle_and_wall(command, ranged=ranged)
+    if ranged:
+        _add_ranges(command)
 
 
-def _add_material(command: argparse.ArgumentParser) -> None:
+def _add_ranges(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--normal",
+        action="store_true",
+        help="probabilities too: x+-s is mean and standard deviation of independent normal values",
+    )
+    command.add_argument(
+        "--out",
+        type=Path,
+        metavar="FILE",
+        help="write the table of steps, --delta 30:60:1, to FILE.csv, .json or .nc",
+    )
+
+
+def _add_material(command: argparse.ArgumentParser, *, ranged: bool) -> None:
     _add_geometry_and_model(command)
     command.add_argument(
         "--delta",
-        type=values.angle,
+        type=_of(values.angle, ranged),
         required=True,
         metavar="DEG",
-        help="angle of internal friction",
+        help="angle of internal friction; 38+-2 or 36:40 if it is known in a range"
+        if ranged
+        else "angle of internal friction",
     )
 
 
@@ -214,21 +238,29 @@ def _add_geometry_and_model(command: argparse.ArgumentParser) -> None:
     )
 
 
-def _add_half_angle_and_wall(command: argparse.ArgumentParser) -> None:
+def _of(single: Callable[[str], float], ranged: bool) -> Callable[[str], ranges.Value]:
+    return ranges.ranged(single) if ranged else single
+
+
+def _add_half_angle_and_wall(command: argparse.ArgumentParser, *, ranged: bool = False) -> None:
     command.add_argument(
         "--half-angle",
-        type=values.angle,
+        type=_of(values.angle, ranged),
         required=True,
         metavar="DEG",
         help="half opening angle, from the vertical",
     )
-    _add_wall(command)
+    _add_wall(command, ranged=ranged)
 
 
-def _add_wall(command: argparse.ArgumentParser) -> None:
+def _add_wall(command: argparse.ArgumentParser, *, ranged: bool) -> None:
     wall = command.add_mutually_exclusive_group(required=True)
-    wall.add_argument("--mu", type=values.coefficient, help="coefficient of friction, tan(phi)")
-    wall.add_argument("--phi", type=values.wall_angle, metavar="DEG", help="angle of wall friction")
+    wall.add_argument(
+        "--mu", type=_of(values.coefficient, ranged), help="coefficient of friction, tan(phi)"
+    )
+    wall.add_argument(
+        "--phi", type=_of(values.wall_angle, ranged), metavar="DEG", help="angle of wall friction"
+    )
 
 
 def _check(options: argparse.Namespace) -> None:
@@ -262,6 +294,11 @@ def _check(options: argparse.Namespace) -> None:
             _require_libraries("--top", ".nc")
     if options.command == "design":
         design_options.check(options)
+    if options.command in ("radial", "stability", "design"):
+        ranges.check(options)
+        if options.out is not None:
+            sheet_options.check(options)
+            _require_libraries("--out", options.out.suffix.lower())
     if options.command in ("neutral", "design"):
         return
     _check_files(options)

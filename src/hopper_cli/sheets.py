@@ -7,12 +7,12 @@ import multiprocessing
 import os
 import sys
 from argparse import Namespace
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 from time import monotonic
-from typing import Any
+from typing import Any, TextIO
 
 from hopper.design.judgement import Judgement, judge_hopper
 from hopper.errors import HopperError
@@ -47,7 +47,9 @@ def answer(options: Namespace) -> str:
         raise UsageError(f"argument LIST: the column {taken[0]} is one of the answer's: rename it")
     try:
         answers = _answered(hoppers, options.out, options.cores)
-        _write(options.out, hoppers, answers)
+        rows = [{**given, **found} for given, found in zip(hoppers.rows, answers, strict=True)]
+        write(options.out, (*hoppers.titles, *COLUMNS), rows)
+        _journal(options.out).unlink(missing_ok=True)
     except OSError as error:
         raise UsageError(f"argument --out: {options.out} cannot be written: {error}") from error
     without = sum(not each["verdict"] for each in answers)
@@ -82,7 +84,7 @@ def _cells(found: Judgement) -> _Answer:
 
 def _answered(hoppers: HopperList, out: Path, cores: int) -> list[_Answer]:
     """Answer what a run that was stopped has not, and keep each answer at once."""
-    journal = out.with_name(f".{out.name}.journal")
+    journal = _journal(out)
     mark = hashlib.sha256(repr((hoppers.titles, hoppers.rows, COLUMNS)).encode()).hexdigest()
     known = _kept(journal, mark)
     missing = [row for row in range(len(hoppers.rows)) if row not in known]
@@ -102,6 +104,10 @@ def _answered(hoppers: HopperList, out: Path, cores: int) -> list[_Answer]:
             )
             raise
     return [known[row] for row in range(len(hoppers.rows))]
+
+
+def _journal(out: Path) -> Path:
+    return out.with_name(f".{out.name}.journal")
 
 
 def _kept(journal: Path, mark: str) -> dict[int, _Answer]:
@@ -152,9 +158,8 @@ def _task(hoppers: HopperList, rows: list[int]) -> list[tuple[int, _Answer]]:
     return [(row, row_answer(hoppers, row)) for row in rows]
 
 
-def _write(out: Path, hoppers: HopperList, answers: list[_Answer]) -> None:
-    rows = [{**inputs, **answered} for inputs, answered in zip(hoppers.rows, answers, strict=True)]
-    titles = (*hoppers.titles, *COLUMNS)
+def write(out: Path, titles: Sequence[str], rows: list[_Answer]) -> None:
+    """Write a table by the suffix of its name; it appears whole or not at all."""
     with replacing(out) as temporary:
         if out.suffix.lower() == ".json":
             temporary.write_text(json.dumps(rows, indent=2) + "\n", encoding="utf-8")
@@ -164,10 +169,14 @@ def _write(out: Path, hoppers: HopperList, answers: list[_Answer]) -> None:
             sheets.write(temporary, titles, rows)
         else:
             with temporary.open("w", newline="", encoding="utf-8") as file:
-                writer = csv.writer(file, lineterminator="\n")
-                writer.writerow(titles)
-                writer.writerows([_cell(row[title]) for title in titles] for row in rows)
-    out.with_name(f".{out.name}.journal").unlink(missing_ok=True)
+                write_csv(file, titles, rows)
+
+
+def write_csv(file: TextIO, titles: Sequence[str], rows: list[_Answer]) -> None:
+    """Write a table of which no cell is a formula."""
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(titles)
+    writer.writerows([_cell(row[title]) for title in titles] for row in rows)
 
 
 def _cell(value: Any) -> Any:

@@ -23,10 +23,10 @@ _STEP, _FLAT = 1e-5, 1e-4
 _CONSTANT = 1e-10
 # Curvature at an extreme inside, relative to the spread, that its slopes are divided by.
 _CURVATURE = 0.05
-# Starts are this far apart at least.
-_APART = 0.3
+# Two starts are this far apart at least, and not further in value, relative to the spread.
+_APART, _NEAR = 0.3, 0.25
 # Steps of the search by comparisons, and of the look around what slopes have found.
-_FIRST, _LAST, _SHRINK, _AROUND = 2.0**-3, 2.0**-17, 0.25, 2.0**-5
+_FIRST, _LAST, _SHRINK, _AROUND = 2.0**-3, 2.0**-13, 0.25, 2.0**-5
 _DESCENTS, _SEED = 30, 1
 
 
@@ -46,9 +46,7 @@ class _MissingError(Exception):
 
 
 @checked
-def extremes(
-    number: Callable[[Array], float], samples: RealLike
-) -> tuple[Extreme, Extreme] | None:
+def extremes(number: Callable[[Array], float], samples: RealLike) -> tuple[Extreme, Extreme] | None:
     """Return the least and the largest value over the unit box, None where there is no value.
 
     ``number`` takes a point, shape (d,), and is NaN where it does not exist; ``samples``, shape
@@ -73,7 +71,8 @@ def _least(number: Callable[[Array], float], points: Array, values: Array) -> Ex
         return Extreme(float(values[first]), spread, points[first])
     far = np.abs(points - points[first]).max(axis=1) >= _APART
     second = int(np.where(far, values, np.inf).argmin())
-    starts = [first, second] if isfinite(values[second]) and second != first else [first]
+    near = values[second] - values[first] <= _NEAR * spread
+    starts = [first, second] if near and second != first else [first]
     scale = max(spread, _CONSTANT * float(np.abs(known).max())) or 1.0
     found = [_descended(_Scaled(number, scale), points[start]) for start in starts]
     best = min(found, key=lambda one: one.value)
@@ -86,10 +85,13 @@ class _Scaled:
     def __init__(self, number: Callable[[Array], float], scale: float) -> None:
         self.number, self.scale = number, scale
         self.at, self.value = np.empty(0), np.inf
+        self.known: dict[bytes, float] = {}
 
     def __call__(self, point: Array) -> float:
+        if (key := point.tobytes()) in self.known:
+            return self.known[key]
         found = self.number(point) / self.scale
-        value = found if isfinite(found) else np.inf
+        self.known[key] = value = found if isfinite(found) else np.inf
         if value < self.value or not self.at.size:
             self.at, self.value = point.copy(), value
         return value
@@ -146,7 +148,7 @@ def _by_comparisons(number: _Scaled, first: float, last: float) -> Extreme:
     random, step, values = np.random.default_rng(_SEED), first, [number.value]
     while step >= last:
         here, before = number.at, number.value
-        for direction in _directions(here.size, random):
+        for direction in _directions(here.size, random, oblique=first > last):
             number(np.clip(here + step * direction, 0, 1))
             if number.value < before:
                 step = min(2 * step, first)
@@ -159,9 +161,9 @@ def _by_comparisons(number: _Scaled, first: float, last: float) -> Extreme:
     return Extreme(number.value, error, number.at)
 
 
-def _directions(size: int, random: np.random.Generator) -> Array:
+def _directions(size: int, random: np.random.Generator, *, oblique: bool) -> Array:
     axes = np.eye(size)
-    if size > 1:
-        oblique, _ = np.linalg.qr(random.standard_normal((size, size)))
-        axes = np.concatenate([axes, oblique])
+    if size > 1 and oblique:
+        turned, _ = np.linalg.qr(random.standard_normal((size, size)))
+        axes = np.concatenate([axes, turned])
     return np.concatenate([axes, -axes])

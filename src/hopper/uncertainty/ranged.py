@@ -9,13 +9,13 @@ import numpy as np
 
 from hopper.arguments import checked
 from hopper.arrays import Array
-from hopper.assessment.limits import assess_limits, tangency_coefficient
-from hopper.assessment.propagation import with_errors
+from hopper.assessment.limits import coefficient, tangency_coefficient
+from hopper.assessment.propagation import ROUNDING, with_errors
 from hopper.assessment.radial import wall_velocity
 from hopper.brief import brief
 from hopper.design.flow_pattern import FlowPattern
 from hopper.domain.borders import tangency_friction
-from hopper.errors import HopperError
+from hopper.errors import HopperError, InvalidParameterError
 from hopper.problem import Hopper
 from hopper.quantity import Quantity
 from hopper.radial.flow_factor import flow_factor
@@ -23,14 +23,15 @@ from hopper.radial.friction_limit import friction_limit
 from hopper.radial.mass_flow import mass_flow_friction_angle
 from hopper.radial.solution import RadialSolution
 from hopper.radial.velocity import solve_velocity
-from hopper.stability.modes import Disturbances, LinearStability
+from hopper.stability.modes import Disturbances, LinearStability, parities_among
 from hopper.uncertainty.box import Box
 from hopper.uncertainty.extremes import Extreme, extremes
 from hopper.uncertainty.hoppers import Hoppers
 from hopper.uncertainty.sampling import Share, cut_off, normal_points, points_in_box, shares
+from hopper.yield_conditions import MOHR_COULOMB
 
 # Points of each shift, as a power of 2: of verdicts, and of mass flow where it has a closed form.
-_POWER = 5
+_POWER, _CLOSED_POWER = 5, 8
 # Of the first shift, those from which the search for extremes may start.
 _STARTS = 16
 
@@ -94,6 +95,8 @@ def radial_over(box: Box, normal: bool = False) -> Ranged:
     """
     hoppers = Hoppers(box)
     numbers = {name: _of_solution(hoppers, number) for name, number in _RADIAL.items()}
+    for place, name in enumerate(("theta_psi_max", "psi_max")):
+        numbers[name] = _psi_maximum(hoppers, place)
     numbers["u_wall"] = _velocity(hoppers)
     numbers |= _limits(hoppers)
     return _answer(hoppers, numbers, hoppers.radial_labels, normal)
@@ -114,7 +117,11 @@ def stability_over(
         disturbances of a cone are asked for.
     """
     hoppers = Hoppers(box, disturbances)
-    hoppers.stability(box.middle)
+    if box.condition != MOHR_COULOMB:
+        raise InvalidParameterError(
+            "box is of another than Mohr-Coulomb material: its stability is not looked at"
+        )
+    parities_among(disturbances, box.geometry)
     numbers = {
         "line": _of_modes(hoppers, lambda found: (found.line.abscissa, found.line.error_estimate)),
         "abscissa": _of_modes(hoppers, lambda found: (found.abscissa, found.error_estimate)),
@@ -132,17 +139,34 @@ def _answer(
     normal: bool,
 ) -> Ranged:
     box = hoppers.box
+    if not box.ranged:
+        raise InvalidParameterError("box is a single hopper: give a range")
     points = points_in_box(len(box.ranged), _POWER)
-    found = shares(labels, points)
+    found = _shares(hoppers, labels, lambda at: at)
     numbers = {"spare": _spare(hoppers), **numbers}
     starts = points[0, :_STARTS]
     intervals = {name: _interval(box, number, starts) for name, number in numbers.items()}
     known = {name: interval for name, interval in intervals.items() if interval}
     if "spare" in known:
         found = _confirmed(found, known["spare"])
-    probabilities = shares(labels, normal_points(points, box.possible)) if normal else None
+    probabilities = None
+    if normal:
+        probabilities = _shares(hoppers, labels, lambda at: normal_points(at, box.possible))
     missing = cut_off(box.possible) if normal else 0.0
     return Ranged(hoppers.pattern(box.middle), known, found, probabilities, missing)
+
+
+def _shares(
+    hoppers: Hoppers, labels: Callable[[Array], Iterable[str]], placed: Callable[[Array], Array]
+) -> dict[str, Share]:
+    """Return shares by points of the unit box that ``placed`` puts where they are wanted."""
+    dimensions = len(hoppers.box.ranged)
+    found = shares(labels, placed(points_in_box(dimensions, _POWER)))
+    if hoppers.closed:  # more points cost next to nothing
+        many = placed(points_in_box(dimensions, _CLOSED_POWER))
+        found.pop("mass_flow", None)
+        found |= shares(hoppers.flow_labels, many)
+    return found
 
 
 def _confirmed(found: dict[str, Share], spare: Interval) -> dict[str, Share]:
@@ -150,6 +174,8 @@ def _confirmed(found: dict[str, Share], spare: Interval) -> dict[str, Share]:
     sampled = found.get("mass_flow", Share(0.0, 0.0)).value
     if sampled == 1 and spare.low.value > spare.low.error:
         return found | {"mass_flow": Share(1.0, 0.0)}
+    if sampled == 0 and spare.high.value < -spare.high.error:
+        return found | {"mass_flow": Share(0.0, 0.0)}
     return found
 
 
@@ -162,7 +188,9 @@ def _interval(box: Box, number: _Number, starts: Array) -> Interval | None:
         point[own] = part
         return point
 
-    lattice = np.array(list(product((0.0, 0.5, 1.0), repeat=len(own)))).reshape(-1, len(own))
+    lattice = np.array(list(product((0.0, 0.5, 1.0), repeat=len(own)))).reshape(
+        3 ** len(own), len(own)
+    )
     samples = lattice
     if len(own) == len(box.ranged):
         samples = np.concatenate([lattice, starts])
@@ -194,10 +222,13 @@ _RADIAL: dict[str, Callable[[RadialSolution], float]] = {
     "sigma_axis": lambda solution: solution.sigma_axis,
     "sigma_wall": lambda solution: solution.sigma_wall,
     "psi_wall": lambda solution: solution.psi_wall,
-    "psi_max": lambda solution: solution.psi_maximum()[1],
-    "theta_psi_max": lambda solution: solution.psi_maximum()[0],
     "flow_factor": flow_factor,
 }
+
+
+def _psi_maximum(hoppers: Hoppers, place: int) -> _Number:
+    slow = _of_solution(hoppers, lambda solution: solution.psi_maximum()[place])
+    return _Number(lambda point: hoppers.psi_maximum(point)[place], slow.error)
 
 
 def _velocity(hoppers: Hoppers) -> _Number:
@@ -254,17 +285,22 @@ def _limits(hoppers: Hoppers) -> dict[str, _Number]:
         return _Number(found, error, ("delta", "half_angle"))
 
     return {
-        "coefficient": number(lambda one: tan(friction_limit(one).friction_angle), "coefficient"),
+        "coefficient": number(lambda one: _largest(one).value, "coefficient"),
         "fold": number(_fold, "fold"),
         "mass_flow": number(mass_flow_friction_angle, "mass_flow"),
         "tangency": number(_tangency, "tangency"),
     }
 
 
+def _largest(hopper: Hopper) -> Quantity:
+    limit = friction_limit(hopper)
+    return coefficient(Quantity(limit.friction_angle, limit.error_estimate + ROUNDING))
+
+
 _LIMIT_ERRORS: dict[str, Callable[[Hopper], Quantity | None]] = {
-    "coefficient": lambda hopper: assess_limits(hopper).coefficient,
-    "fold": lambda hopper: assess_limits(hopper).fold,
-    "mass_flow": lambda hopper: assess_limits(hopper).mass_flow,
+    "coefficient": _largest,
+    "fold": _largest,
+    "mass_flow": lambda hopper: Quantity(0.0, ROUNDING),
     "tangency": tangency_coefficient,
 }
 

@@ -1,0 +1,68 @@
+"""The largest wall friction over a box, interpolated: whether a radial solution can exist.
+
+To find that there is none costs more than to find one, and a search along the border of existence
+asks often. The limit is smooth over (delta, half angle) but for where another end of the family
+takes over; how far the interpolant is off is tested, and within that nothing is claimed.
+"""
+
+from itertools import product
+
+import numpy as np
+
+from hopper.arguments import RealRow, checked
+from hopper.arrays import Array
+from hopper.errors import HopperError
+from hopper.radial.friction_limit import friction_limit
+from hopper.uncertainty.box import Box
+from hopper.uncertainty.sampling import points_in_box
+
+# Nodes in one range and in two, points of the test (a power of 2), and what is claimed beside it.
+_NODES, _TESTS, _SAFETY, _LEAST = {0: 1, 1: 9, 2: 5}, 0, 3.0, 1e-9
+
+
+class FrictionLimits:
+    """An interpolant of the largest friction angle over the ranges of delta and half angle."""
+
+    def __init__(self, box: Box) -> None:
+        self.box = box
+        self.own = [i for i, name in enumerate(box.ranged) if name != "wall"]
+        count = _NODES[len(self.own)]
+        self.nodes = (1 - np.cos(np.pi * np.arange(count) / max(count - 1, 1))) / 2
+        grid = product(self.nodes, repeat=len(self.own))
+        self.values = np.array([self._limit(np.array(node)) for node in grid])
+        self.margin = _LEAST
+        if self.own:
+            tests = points_in_box(len(self.own), _TESTS).reshape(-1, len(self.own))
+            off = [abs(self._limit(test) - self._interpolated(test)) for test in tests]
+            self.margin += _SAFETY * max(off)
+
+    @checked
+    def exclude(self, point: RealRow) -> bool:
+        """Whether the wall at a point of the box is surely too rough for a radial solution."""
+        place = np.asarray(point, dtype=float)
+        if np.any((place < 0) | (place > 1)):
+            return False
+        material, _ = self.box.hopper(place)
+        # NaN, where a node is not resolved, claims nothing.
+        return bool(material.friction_angle > self._interpolated(place[self.own]) + self.margin)
+
+    def _limit(self, part: Array) -> float:
+        point = self.box.middle.copy()
+        point[self.own] = part
+        material, half_angle = self.box.hopper(point)
+        try:
+            return friction_limit(material.hopper(half_angle)).friction_angle
+        except HopperError:
+            return np.nan
+
+    def _interpolated(self, part: Array) -> float:
+        values = self.values.reshape([self.nodes.size] * len(self.own))
+        for place in part[::-1]:
+            values = values @ self._weights(place)
+        return float(values.item())
+
+    def _weights(self, place: float) -> Array:
+        """Return Lagrange's polynomials at a place; the nodes are few."""
+        away = np.where(np.eye(self.nodes.size, dtype=bool), 1.0, place - self.nodes[None, :])
+        apart = self.nodes[:, None] - self.nodes[None, :] + np.eye(self.nodes.size)
+        return (away / apart).prod(axis=1)
