@@ -1,7 +1,7 @@
 """What the subcommands answer where an option is known in a range."""
 
 from argparse import Namespace
-from math import atan, degrees, radians, tan
+from math import atan, degrees, floor, log10, radians, tan
 from typing import Any
 
 from hopper.problem import as_geometry
@@ -142,7 +142,8 @@ def _label(name: str) -> str:
 def _percent(share: Share) -> str:
     if not share.error:
         return f"{100 * share.value:g} %"
-    return f"{text.with_error(100 * share.value, 100 * share.error)} %"
+    digits = max(0, -floor(log10(100 * share.error)))
+    return f"{100 * share.value:.{digits}f} +- {100 * share.error:.{digits}f} %"
 
 
 def _explanation(options: Namespace, rows: list[Row]) -> list[str]:
@@ -155,8 +156,8 @@ def _explanation(options: Namespace, rows: list[Row]) -> list[str]:
     errors = [row.relative_error for row in rows if row.value]
     return [
         f"Over a range: {options.geometry}, {options.model}, {given}",
-        "'to' is what the given range leaves open, where there is a value; '+-' is numerical error, "
-        f"at most {max(errors, default=0.0):.0e} of the value, and of shares that of sampling.",
+        "'to': what the given range leaves open, where there is a value; '+-': numerical error, at "
+        f"most {max(errors, default=0.0):.0e} of the value, and of shares that of sampling.",
     ]
 
 

@@ -4,7 +4,8 @@ import argparse
 from argparse import Namespace
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import floor, isfinite
+from math import floor, isfinite, prod
+from typing import TypeVar
 
 from hopper_cli.errors import UsageError
 
@@ -50,6 +51,7 @@ class Steps:
 
 
 Value = float | Given | Steps
+_Kind = TypeVar("_Kind", Given, Steps)
 
 
 def ranged(single: Callable[[str], float]) -> Callable[[str], Value]:
@@ -94,8 +96,8 @@ def _spread(parts: list[float], text: str, single: Callable[[str], float]) -> Va
         raise argparse.ArgumentTypeError(f"{text!r}: what follows +- is negative: {_LIKE}")
     if deviation == 0:
         return single(f"{mean}")
-    ends = (_end(value, text, single) for value in (mean - deviation, mean + deviation))
-    return Given(*ends, spread=True)
+    low, high = (_end(value, text, single) for value in (mean - deviation, mean + deviation))
+    return Given(low, high, spread=True)
 
 
 def _range(parts: list[float], text: str, single: Callable[[str], float]) -> Value:
@@ -132,7 +134,7 @@ def _end(value: float, text: str, single: Callable[[str], float]) -> float:
         raise argparse.ArgumentTypeError(f"{text!r} crosses a limit: {error}") from None
 
 
-def of_kind(options: Namespace, kind: type) -> dict[str, Value]:
+def of_kind(options: Namespace, kind: type[_Kind]) -> dict[str, _Kind]:
     """Return the options that are ranges, or steps, by their names."""
     values = {name: getattr(options, name, None) for name in RANGED}
     return {name: value for name, value in values.items() if isinstance(value, kind)}
@@ -148,7 +150,7 @@ def check(options: Namespace) -> None:
     """
     given, steps = of_kind(options, Given), of_kind(options, Steps)
     if given and steps:
-        first, second = (option(next(iter(each))) for each in (given, steps))
+        first, second = option(next(iter(given))), option(next(iter(steps)))
         raise UsageError(
             f"argument {first}: a range and the steps of {second} do not go together: give one"
         )
@@ -156,7 +158,7 @@ def check(options: Namespace) -> None:
         if not given:
             raise UsageError("argument --normal: no option has a range: give one as 38+-2")
         for name, value in given.items():
-            if isinstance(value, Given) and not value.spread:
+            if not value.spread:
                 raise UsageError(
                     f"argument {option(name)}: --normal needs mean and standard deviation: give "
                     f"{value.middle:g}+-{value.high - value.middle:g}"
@@ -170,10 +172,8 @@ def check(options: Namespace) -> None:
     _check_rows(options, steps)
 
 
-def _check_rows(options: Namespace, steps: dict[str, Value]) -> None:
-    count = 1
-    for value in steps.values():
-        count *= len(value.values) if isinstance(value, Steps) else 1
+def _check_rows(options: Namespace, steps: dict[str, Steps]) -> None:
+    count = prod(len(value.values) for value in steps.values())
     if count > _MOST_ROWS:
         raise UsageError(
             f"argument {option(next(iter(steps)))}: {count} rows are more than {_MOST_ROWS}: give "

@@ -54,12 +54,10 @@ def _inputs(options: Namespace) -> Iterator[dict[str, Any]]:
     names = [name for name in ranges.RANGED if getattr(options, name, None) is not None]
     values = [_values(getattr(options, name)) for name in names]
     fixed = {"geometry": options.geometry, "model": options.model}
-    if options.disturbances:
-        fixed["disturbances"] = options.disturbances
+    if chosen := getattr(options, "disturbances", None):
+        fixed["disturbances"] = chosen
     for row in product(*values):
-        yield fixed | {
-            ranges.option(name)[2:]: value for name, value in zip(names, row, strict=True)
-        }
+        yield fixed | dict(zip((ranges.option(name)[2:] for name in names), row, strict=True))
 
 
 def _values(value: ranges.Value) -> list[Any]:

@@ -188,9 +188,7 @@ def _interval(box: Box, number: _Number, starts: Array) -> Interval | None:
         point[own] = part
         return point
 
-    lattice = np.array(list(product((0.0, 0.5, 1.0), repeat=len(own)))).reshape(
-        3 ** len(own), len(own)
-    )
+    lattice = np.array(list(product((0.0, 0.5, 1.0), repeat=len(own))))
     samples = lattice
     if len(own) == len(box.ranged):
         samples = np.concatenate([lattice, starts])

@@ -78,9 +78,10 @@ def shares(labels: Callable[[Array], Iterable[str]], points: RealLike) -> dict[s
 
     The error is that of the mean of the shifts, at least a point's share: less is not seen.
     """
-    counts = [Counter(label for point in shifted for label in labels(point)) for shifted in points]
+    shifts = np.asarray(points, dtype=float)
+    counts = [Counter(label for point in shifted for label in labels(point)) for shifted in shifts]
     names = dict.fromkeys(name for count in counts for name in count)
-    each = np.shape(points)[1]
+    each = shifts.shape[1]
     return {name: _share([count[name] / each for count in counts], each) for name in names}
 
 
