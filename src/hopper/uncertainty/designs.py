@@ -17,7 +17,7 @@ from hopper.errors import HopperError, InvalidParameterError
 from hopper.quantity import Quantity
 from hopper.stability.modes import Disturbances
 from hopper.uncertainty.box import Box
-from hopper.uncertainty.extremes import COARSE, Extreme, extremes
+from hopper.uncertainty.interpolation import interpolated, interpolation_nodes
 from hopper.uncertainty.ranged import Interval
 from hopper.uncertainty.sampling import Share, normal_points, points_in_box, shares
 from hopper.values import require_angle
@@ -26,6 +26,8 @@ NUMBERS = (
     *(f"half_angles.{name}" for name in (*LIMITS, "stable_from", "mass_flow")),
     *("recommended", "flow_factor", "velocity_ratio", "outlet.stress", "outlet.width"),
 )
+# Nodes of each range, by their number, and points at which the interpolant is looked at.
+_NODES, _FINE = {1: 5, 2: 3}, {1: 1001, 2: 101}
 # Points of each shift, as a power of 2: the limits are interpolated, so that they cost nothing.
 _POWER = 8
 
@@ -67,8 +69,8 @@ def design_over(
 ) -> RangedDesign:
     """Return designs over the ranges of delta and wall; as :func:`hopper.design.design.design`.
 
-    A design takes long, so that the search for extremes is coarse, and shares are of limits that
-    are interpolated between three values of each range.
+    A design takes long: numbers are interpolated between those at a few nodes, the corners among
+    them, and where the interpolant is least or largest a design is computed.
 
     Raises
     ------
@@ -80,8 +82,8 @@ def design_over(
     if not box.ranged or "half_angle" in box.ranged:
         raise InvalidParameterError("box has no range of delta or wall, or one of half angles")
     require_angle("margin", margin, zero_allowed=True)
-    middle = design(box.hopper(box.middle)[0], margin, demand, disturbances)
-    known: dict[bytes, Design | None] = {box.middle.tobytes(): middle}
+    at_middle = design(box.hopper(box.middle)[0], margin, demand, disturbances)
+    known: dict[bytes, Design | None] = {box.middle.tobytes(): at_middle}
 
     def found(point: Array) -> Design | None:
         if (key := point.tobytes()) not in known:
@@ -91,62 +93,71 @@ def design_over(
                 known[key] = None
         return known[key]
 
-    lattice = np.array(list(product((0.0, 0.5, 1.0), repeat=len(box.ranged))))
-    intervals = {name: _interval(found, name, lattice) for name in NUMBERS}
+    dimensions = len(box.ranged)
+    nodes = interpolation_nodes(_NODES[dimensions])
+    lattice = [found(np.array(node)) for node in product(nodes, repeat=dimensions)]
+    tables = {name: _table(lattice, name, dimensions) for name in NUMBERS}
+    intervals = {name: _interval(found, name, table) for name, table in tables.items()}
     numbers = {name: interval for name, interval in intervals.items() if interval}
-    limits = [numbers[name].low for limit in LIMITS if (name := f"half_angles.{limit}") in numbers]
-    least = min(limits, key=lambda limit: limit.value, default=None)
-    recommended = least and Quantity(least.value - margin, least.error)
-    points = points_in_box(len(box.ranged), _POWER)
-    at_nodes = [found(node) for node in lattice]
+    limits = np.array([tables[f"half_angles.{name}"] for name in LIMITS])
+    points = points_in_box(dimensions, _POWER)
     probabilities = None
     if normal:
-        probabilities = _governors(at_nodes, normal_points(points, box.possible))
+        probabilities = _governors(limits, normal_points(points, box.possible))
     return RangedDesign(
-        middle,
-        numbers,
-        recommended if recommended and recommended.value > 0 else None,
-        _governors(at_nodes, points),
-        probabilities,
+        at_middle, numbers, _recommended(numbers, margin), _governors(limits, points), probabilities
     )
 
 
-def _interval(
-    found: Callable[[Array], Design | None], name: str, lattice: Array
-) -> Interval | None:
-    def at(point: Array) -> Quantity | None:
-        result = found(point)
-        part, _, last = name.rpartition(".")
-        whole = attrgetter(part)(result) if result and part else result
-        quantity: Quantity | None = whole and getattr(whole, last)
-        return quantity
-
-    def value(point: Array) -> float:
-        quantity = at(point)
-        return quantity.value if quantity else nan
-
-    def end(extreme: Extreme) -> Quantity:
-        quantity = at(extreme.at)
-        return Quantity(extreme.value, extreme.error + (quantity.error if quantity else 0.0))
-
-    ends = extremes(value, lattice, COARSE)
-    return Interval(*map(end, ends)) if ends else None
+def _recommended(numbers: dict[str, Interval], margin: float) -> Quantity | None:
+    """Return the margin below the smallest limit of the whole box."""
+    limits = [numbers[name].low for limit in LIMITS if (name := f"half_angles.{limit}") in numbers]
+    least = min(limits, key=lambda limit: limit.value, default=None)
+    if least is None or least.value <= margin:
+        return None
+    return Quantity(least.value - margin, least.error)
 
 
-def _governors(nodes: list[Design | None], points: Array) -> dict[str, Share]:
+def _quantity(found: Design | None, name: str) -> Quantity | None:
+    part, _, last = name.rpartition(".")
+    whole = attrgetter(part)(found) if found and part else found
+    quantity: Quantity | None = whole and getattr(whole, last)
+    return quantity
+
+
+def _table(lattice: list[Design | None], name: str, dimensions: int) -> Array:
+    """Return a number at the nodes, NaN where it does not exist."""
+    quantities = [_quantity(one, name) for one in lattice]
+    values = np.array([one.value if one else nan for one in quantities])
+    return values.reshape([_NODES[dimensions]] * dimensions)
+
+
+def _interval(found: Callable[[Array], Design | None], name: str, table: Array) -> Interval | None:
+    if np.isnan(table).all():
+        return None
+    whole = not np.isnan(table).any()
+    nodes = np.array(list(product(interpolation_nodes(table.shape[0]), repeat=table.ndim)))
+    places = nodes
+    if whole:
+        fine = np.linspace(0, 1, _FINE[table.ndim])
+        places = np.concatenate([nodes, list(product(fine, repeat=table.ndim))])
+    values = interpolated(table, places) if whole else table.ravel()
+    ends = []
+    for place in (np.nanargmin(values), np.nanargmax(values)):
+        quantity = _quantity(found(places[place]), name)
+        if quantity is None:
+            return None
+        # Where it exists in a part only, no more is known than between neighbours.
+        off = abs(quantity.value - values[place]) if whole else float(np.nanstd(table))
+        ends.append(Quantity(quantity.value, quantity.error + off))
+    return Interval(*ends)
+
+
+def _governors(limits: Array, points: Array) -> dict[str, Share]:
     """Return the share of each smallest limit; the error holds what interpolation leaves open."""
     size = points.shape[-1]
-    table = np.array(
-        [
-            [value.value if one and (value := getattr(one.half_angles, name)) else np.inf
-             for one in nodes]
-            for name in LIMITS
-        ]
-    ).reshape(len(LIMITS), *[3] * size)  # fmt: skip
-    fine, coarse = (
-        shares(lambda point, at=at: [_smallest(table, point, at)], points)
-        for at in (np.array([0.0, 0.5, 1.0]), np.array([0.0, 1.0]))
-    )
+    skipped = (slice(None), *[slice(None, None, 2)] * size)
+    fine, coarse = (_shares_of_smallest(table, points) for table in (limits, limits[skipped]))
     none = Share(0.0, 0.0)
     return {
         name: Share(share.value, share.error + abs(share.value - coarse.get(name, none).value))
@@ -154,15 +165,15 @@ def _governors(nodes: list[Design | None], points: Array) -> dict[str, Share]:
     }
 
 
-def _smallest(table: Array, point: Array, nodes: Array) -> str:
-    """Return which interpolated limit is the smallest; one that a node lacks is taken as none."""
-    values = table if nodes.size == 3 else table[(slice(None), *[slice(None, None, 2)] * point.size)]
-    for place in point[::-1]:
-        weights = [
-            np.prod([(place - other) / (node - other) for other in nodes if other != node])
-            for node in nodes
+def _shares_of_smallest(limits: Array, points: Array) -> dict[str, Share]:
+    """Return the shares; a limit that lacks at a node is taken as none."""
+    flat = points.reshape(-1, points.shape[-1])
+    values = np.array(
+        [
+            interpolated(table, flat) if np.isfinite(table).all() else np.full(len(flat), np.inf)
+            for table in limits
         ]
-        with np.errstate(invalid="ignore"):
-            values = values @ np.array(weights)
-    known = np.where(np.isfinite(values), values, np.inf)
-    return LIMITS[int(known.argmin())] if np.isfinite(known).any() else "none"
+    )
+    least = np.where(np.isfinite(values).any(axis=0), values.argmin(axis=0), len(LIMITS))
+    names = dict(zip((point.tobytes() for point in flat), least.tolist(), strict=True))
+    return shares(lambda point: [(*LIMITS, "none")[names[point.tobytes()]]], points)

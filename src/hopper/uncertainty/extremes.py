@@ -19,12 +19,14 @@ from hopper.brief import brief
 
 # Spread, relative to the values, of what is constant.
 _CONSTANT = 1e-10
+# Step for slopes, and the largest slope at an extreme; relative to the spread of the samples.
+_STEP, _FLAT = 1e-5, 1e-4
 # Curvature at an extreme inside, relative to the spread, that its slopes are divided by.
 _CURVATURE = 0.05
 # Two starts are this far apart at least, and not further in value, relative to the spread.
 _APART, _NEAR = 0.3, 0.25
 # Steps of the search by comparisons, and of the look around what slopes have found.
-_FIRST, _SHRINK, _AROUND = 2.0**-3, 0.25, 2.0**-5
+_FIRST, _LAST, _SHRINK, _AROUND = 2.0**-3, 2.0**-13, 0.25, 2.0**-5
 _DESCENTS, _SEED = 30, 1
 
 
@@ -43,39 +45,23 @@ class _MissingError(Exception):
     """A slope is asked for where the number does not exist."""
 
 
-@dataclass(frozen=True)
-class Effort:
-    """How fine a search is: step for slopes, the slope that is none, and the last step."""
-
-    step: float
-    flat: float
-    last: float
-
-
-FINE, COARSE = Effort(1e-5, 1e-4, 2.0**-13), Effort(1e-3, 1e-2, 2.0**-5)
-
-
 @checked
-def extremes(
-    number: Callable[[Array], float], samples: RealLike, effort: Effort = FINE
-) -> tuple[Extreme, Extreme] | None:
+def extremes(number: Callable[[Array], float], samples: RealLike) -> tuple[Extreme, Extreme] | None:
     """Return the least and the largest value over the unit box, None where there is no value.
 
     ``number`` takes a point, shape (d,), and is NaN where it does not exist; ``samples``, shape
-    (n, d), are where the search begins. A coarse effort is for numbers that take long.
+    (n, d), are where the search begins.
     """
     points = np.asarray(samples, dtype=float)
     values = np.array([number(point) for point in points])
     if not np.isfinite(values).any():
         return None
-    low = _least(number, points, values, effort)
-    high = _least(lambda point: -number(point), points, -values, effort)
+    low = _least(number, points, values)
+    high = _least(lambda point: -number(point), points, -values)
     return low, Extreme(-high.value, high.error, high.at)
 
 
-def _least(
-    number: Callable[[Array], float], points: Array, values: Array, effort: Effort
-) -> Extreme:
+def _least(number: Callable[[Array], float], points: Array, values: Array) -> Extreme:
     values = np.where(np.isfinite(values), values, np.inf)
     first = int(values.argmin())
     known = values[np.isfinite(values)]
@@ -88,7 +74,7 @@ def _least(
     near = values[second] - values[first] <= _NEAR * spread
     starts = [first, second] if near and second != first else [first]
     scale = max(spread, _CONSTANT * float(np.abs(known).max())) or 1.0
-    found = [_descended(_Scaled(number, scale, effort), points[start]) for start in starts]
+    found = [_descended(_Scaled(number, scale), points[start]) for start in starts]
     best = min(found, key=lambda one: one.value)
     return Extreme(best.value * scale, best.error * scale, best.at)
 
@@ -96,8 +82,8 @@ def _least(
 class _Scaled:
     """A number in units of its spread, inf where it does not exist; the least one is kept."""
 
-    def __init__(self, number: Callable[[Array], float], scale: float, effort: Effort) -> None:
-        self.number, self.scale, self.effort = number, scale, effort
+    def __init__(self, number: Callable[[Array], float], scale: float) -> None:
+        self.number, self.scale = number, scale
         self.at, self.value = np.empty(0), np.inf
         self.known: dict[bytes, float] = {}
 
@@ -114,7 +100,7 @@ class _Scaled:
         """Return the gradient by steps that stay inside the box."""
         here, found = self(point), np.empty(point.size)
         for i, place in enumerate(point):
-            step = -self.effort.step if place > 0.5 else self.effort.step
+            step = -_STEP if place > 0.5 else _STEP
             beside = point.copy()
             beside[i] += step
             found[i] = (self(beside) - here) / step
@@ -138,18 +124,17 @@ def _descended(number: _Scaled, start: Array) -> Extreme:
             jac=number.slope,
             method="L-BFGS-B",
             bounds=[(0, 1)] * start.size,
-            options={"gtol": number.effort.flat / 10, "ftol": 1e-12, "maxiter": _DESCENTS},
+            options={"gtol": _FLAT / 10, "ftol": 1e-12, "maxiter": _DESCENTS},
         )
         left = _remaining(number.at, number.slope(number.at))
     except _MissingError:
         number(start)
-    flat, last = number.effort.flat, number.effort.last
-    if left > flat:
-        return _by_comparisons(number, _FIRST, last)
+    if left > _FLAT:
+        return _by_comparisons(number, _FIRST, _LAST)
     best = number.value
     found = _by_comparisons(number, _AROUND, _AROUND)
-    if best - found.value > flat:  # another basin, or a kink
-        return _by_comparisons(number, _AROUND, last)
+    if best - found.value > _FLAT:  # another basin, or a kink
+        return _by_comparisons(number, _AROUND, _LAST)
     return Extreme(found.value, min(left, left**2 / (2 * _CURVATURE)), found.at)
 
 

@@ -14,6 +14,7 @@ from hopper.arrays import Array
 from hopper.errors import HopperError
 from hopper.radial.friction_limit import friction_limit
 from hopper.uncertainty.box import Box
+from hopper.uncertainty.interpolation import interpolated, interpolation_nodes
 from hopper.uncertainty.sampling import points_in_box
 
 # Nodes in one range and in two, points of the test (a power of 2), and what is claimed beside it.
@@ -27,9 +28,9 @@ class FrictionLimits:
         self.box = box
         self.own = [i for i, name in enumerate(box.ranged) if name != "wall"]
         count = _NODES[len(self.own)]
-        self.nodes = (1 - np.cos(np.pi * np.arange(count) / max(count - 1, 1))) / 2
-        grid = product(self.nodes, repeat=len(self.own))
-        self.values = np.array([self._limit(np.array(node)) for node in grid])
+        grid = product(interpolation_nodes(count), repeat=len(self.own))
+        values = np.array([self._limit(np.array(node)) for node in grid])
+        self.values = values.reshape([count] * len(self.own))
         self.margin = _LEAST
         if self.own:
             tests = points_in_box(len(self.own), _TESTS).reshape(-1, len(self.own))
@@ -43,7 +44,7 @@ class FrictionLimits:
         if np.any((place < 0) | (place > 1)):
             return False
         material, _ = self.box.hopper(place)
-        # NaN, where a node is not resolved, claims nothing.
+        # NaN, where a node is not resolved, excludes nothing.
         return bool(material.friction_angle > self._interpolated(place[self.own]) + self.margin)
 
     def _limit(self, part: Array) -> float:
@@ -56,13 +57,6 @@ class FrictionLimits:
             return np.nan
 
     def _interpolated(self, part: Array) -> float:
-        values = self.values.reshape([self.nodes.size] * len(self.own))
-        for place in part[::-1]:
-            values = values @ self._weights(place)
-        return float(values.item())
-
-    def _weights(self, place: float) -> Array:
-        """Return Lagrange's polynomials at a place; the nodes are few."""
-        away = np.where(np.eye(self.nodes.size, dtype=bool), 1.0, place - self.nodes[None, :])
-        apart = self.nodes[:, None] - self.nodes[None, :] + np.eye(self.nodes.size)
-        return (away / apart).prod(axis=1)
+        if np.isnan(self.values).any():
+            return np.nan
+        return float(interpolated(self.values, part.reshape(1, -1))[0])
