@@ -4,12 +4,15 @@ from argparse import Namespace
 from math import atan, degrees, floor, log10, radians, tan
 from typing import Any
 
+from hopper.design.half_angles import LIMITS
+from hopper.design.material import NARROWEST
 from hopper.problem import as_geometry
 from hopper.uncertainty.box import Box, Range
+from hopper.uncertainty.designs import RangedDesign, design_over
 from hopper.uncertainty.ranged import Ranged, radial_over, stability_over
 from hopper.uncertainty.sampling import Share
 from hopper.yield_conditions import yield_condition
-from hopper_cli import documents, ranges, sentences, text
+from hopper_cli import designs, documents, ranges, sentences, text
 from hopper_cli.errors import UsageError
 from hopper_data import assessments, tables
 from hopper_data.tables import Row, Table, angle
@@ -26,6 +29,7 @@ _WORDS = {
     "velocity": "radial flow reaches the wall",
     "no_wall_angle": "the wall is rougher than the material",
     "not_converged": "not resolved",
+    "limit": "limit of a radial solution",
 }
 # Errors that are not worth a word, relative.
 _SMALL = 1e-6
@@ -40,6 +44,8 @@ def answer(options: Namespace) -> str:
         If a range holds impossible hoppers, or is not looked at for that material.
     """
     box = box_of(options)
+    if options.command == "design":
+        return _design(options, box)
     if options.command == "radial":
         return _text_or_json(options, radial_over(box, options.normal), _RADIAL)
     if options.model == "von-mises":
@@ -60,7 +66,8 @@ def box_of(options: Namespace) -> Box:
         If the roughest wall is rougher than the weakest material.
     """
     condition, by_mu = yield_condition(options.model), options.phi is None
-    delta, half_angle = (_range(value, radians) for value in (options.delta, options.half_angle))
+    delta = _range(options.delta, radians)
+    half_angle = _range(getattr(options, "half_angle", degrees(NARROWEST)), radians)
     wall = _range(options.mu, float) if by_mu else _range(options.phi, radians)
     largest = condition.largest_friction_angle(delta.low)
     if (atan(wall.high) if by_mu else wall.high) > largest:
@@ -76,6 +83,41 @@ def box_of(options: Namespace) -> Box:
 def _range(value: ranges.Value, unit: Any) -> Range:
     ends = (value.low, value.high) if isinstance(value, ranges.Given) else (value, value)
     return Range(*map(unit, ends))
+
+
+def _design(options: Namespace, box: Box) -> str:
+    needed = designs.demand(options)
+    found = design_over(box, radians(options.margin), needed, options.disturbances, options.normal)
+    first = sentences.design_range_sentence(found, options.margin)
+    low, high = (tables.rows(_nested(found, end), assessments.DESIGN) for end in ("low", "high"))
+    if options.json:
+        recommended = found.recommended
+        return documents.over_ranges(
+            {**_inputs(options), "margin_deg": options.margin},
+            list(zip(low, high, strict=True)),
+            **{
+                f"{a.variable.name}_error": None if a.value is None else [a.error, b.error]
+                for a, b in zip(low, high, strict=True)
+            },
+            sentence=first,
+            half_angle_recommended_whole_deg=recommended and degrees(recommended.value),
+            governed_by=found.middle.half_angles.governed_by,
+            **_shares(found.shares, found.probabilities),
+            notes=[*options.doubts, *found.middle.notes],
+        )
+    cells = [cell for pair in zip(low, high, strict=True) if (cell := _cell(*pair))]
+    cells += _share_cells(found.shares, found.probabilities)
+    words = [*_explanation(options, low + high), *found.middle.notes]
+    return documents.as_text(first, cells, words)
+
+
+def _nested(found: RangedDesign, end: str) -> dict[str, Any]:
+    """Return one end of each interval as a design has it."""
+    whole: dict[str, Any] = {}
+    for name, interval in found.numbers.items():
+        part, _, last = name.rpartition(".")
+        (whole.setdefault(part, {}) if part else whole)[last] = getattr(interval, end)
+    return whole
 
 
 def _text_or_json(options: Namespace, found: Ranged, table: Table) -> str:
@@ -95,17 +137,11 @@ def _text_or_json(options: Namespace, found: Ranged, table: Table) -> str:
             list(zip(low, high, strict=True)),
             sentence=first,
             mass_flow=found.pattern.mass_flow,
-            **_shares(found),
+            **_shares(found.shares, found.probabilities),
             notes=[*options.doubts, *notes],
         )
     cells = [cell for pair in zip(low, high, strict=True) if (cell := _cell(*pair))]
-    cells += [_share_cell(name, found) for name in found.shares]
-    if found.probabilities:
-        cells += [
-            _probability_cell(name, share)
-            for name, share in found.probabilities.items()
-            if name not in found.shares
-        ]
+    cells += _share_cells(found.shares, found.probabilities)
     return documents.as_text(first, cells, [*_explanation(options, low + high), *notes])
 
 
@@ -123,20 +159,18 @@ def _end(row: Row) -> str:
     return text.with_error(value, error) if error > least else text.rounded(value, least)
 
 
-def _share_cell(name: str, found: Ranged) -> tuple[str, str]:
-    words = f"{_percent(found.shares[name])} of the range"
-    if found.probabilities is not None:
-        probability = found.probabilities.get(name, Share(0.0, found.shares[name].error))
-        words += f", probability {_percent(probability)}"
-    return _label(name), words
-
-
-def _probability_cell(name: str, share: Share) -> tuple[str, str]:
-    return _label(name), f"nowhere in the range, probability {_percent(share)}"
-
-
-def _label(name: str) -> str:
-    return _WORDS.get(name, name.replace("_", " "))
+def _share_cells(
+    shares: dict[str, Share], probabilities: dict[str, Share] | None
+) -> list[tuple[str, str]]:
+    cells = []
+    for name in dict.fromkeys([*shares, *(probabilities or {})]):
+        words = f"{_percent(shares[name])} of the range" if name in shares else "not in the range"
+        if probabilities is not None:
+            chance = _percent(probabilities[name]) if name in probabilities else "next to none"
+            words += f", probability {chance}"
+        label = _WORDS.get(name) or name.replace("_", " ")
+        cells.append((f"{label} is smallest" if name in LIMITS else label, words))
+    return cells
 
 
 def _percent(share: Share) -> str:
@@ -161,13 +195,16 @@ def _explanation(options: Namespace, rows: list[Row]) -> list[str]:
     ]
 
 
-def _shares(found: Ranged) -> dict[str, Any]:
-    parts: dict[str, Any] = {"share": found.shares, "probability": found.probabilities}
-    document: dict[str, Any] = {}
-    for key, shares in parts.items():
-        known: dict[str, Share] | None = shares
-        document[key] = known and {name: share.value for name, share in known.items()}
-        document[f"{key}_error"] = known and {name: share.error for name, share in known.items()}
+def _shares(
+    shares: dict[str, Share], probabilities: dict[str, Share] | None
+) -> dict[str, dict[str, float] | None]:
+    document: dict[str, dict[str, float] | None] = {}
+    both: dict[str, dict[str, Share] | None] = {"share": shares, "probability": probabilities}
+    for key, known in both.items():
+        for suffix, part in (("", "value"), ("_error", "error")):
+            document[key + suffix] = (
+                {name: getattr(share, part) for name, share in known.items()} if known else None
+            )
     return document
 
 
@@ -180,7 +217,7 @@ def _inputs(options: Namespace) -> dict[str, Any]:
         "geometry": options.geometry,
         "model": options.model,
         "delta_deg": _ends(options.delta),
-        "half_angle_deg": _ends(options.half_angle),
+        **({} if options.command == "design" else {"half_angle_deg": _ends(options.half_angle)}),
         "mu": [tan(friction.low), tan(friction.high)] if options.mu is None else _ends(options.mu),
         "phi_deg": angles if options.phi is None else _ends(options.phi),
         "normal": options.normal,

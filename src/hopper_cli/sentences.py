@@ -14,6 +14,7 @@ from hopper.design.half_angles import Limit
 from hopper_cli.text import described
 
 if TYPE_CHECKING:  # sampling takes a second to import, and only ranges need it
+    from hopper.uncertainty.designs import RangedDesign
     from hopper.uncertainty.ranged import Ranged
     from hopper.uncertainty.sampling import Share
 
@@ -71,6 +72,21 @@ _LIMITS: dict[Limit, str] = {
     "velocity": "where radial flow ceases to reach the wall",
     "stability": "where the flow ceases to be stable",
 }
+
+
+def design_range_sentence(found: "RangedDesign", margin: float) -> str:
+    """Return the same over a range; ``margin`` in degrees."""
+    flows = found.numbers.get("half_angles.mass_flow")
+    words = found.middle.half_angles.no_mass_flow
+    if flows:
+        low, high = (f"{degrees(end.value):.4g}" for end in (flows.low, flows.high))
+        words = f"up to a half angle of {low} to {high} deg in the given range"
+    if found.recommended is None:
+        return f"Mass flow: {words}; no half angle is recommended."
+    return (
+        f"Mass flow: {words}; recommended {degrees(found.recommended.value):.4g} deg, {margin:.3g} "
+        "deg below the smallest limit of the whole range."
+    )
 
 
 def design_sentence(found: Design) -> str:

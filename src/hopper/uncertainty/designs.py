@@ -121,8 +121,7 @@ def _recommended(numbers: dict[str, Interval], margin: float) -> Quantity | None
 def _quantity(found: Design | None, name: str) -> Quantity | None:
     part, _, last = name.rpartition(".")
     whole = attrgetter(part)(found) if found and part else found
-    quantity: Quantity | None = whole and getattr(whole, last)
-    return quantity
+    return getattr(whole, last) if whole else None
 
 
 def _table(lattice: list[Design | None], name: str, dimensions: int) -> Array:

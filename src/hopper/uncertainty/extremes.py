@@ -26,7 +26,7 @@ _CURVATURE = 0.05
 # Two starts are this far apart at least, and not further in value, relative to the spread.
 _APART, _NEAR = 0.3, 0.25
 # Steps of the search by comparisons, and of the look around what slopes have found.
-_FIRST, _LAST, _SHRINK, _AROUND = 2.0**-3, 2.0**-13, 0.25, 2.0**-5
+_FIRST, _LAST, _SHRINK, _AROUND = 2.0**-3, 2.0**-9, 0.25, 2.0**-5
 _DESCENTS, _SEED = 30, 1
 
 
@@ -146,18 +146,21 @@ def _remaining(at: Array, slope: Array) -> float:
 
 def _by_comparisons(number: _Scaled, first: float, last: float) -> Extreme:
     random, step, values = np.random.default_rng(_SEED), first, [number.value]
+    around: list[float] = []
     while step >= last:
-        here, before = number.at, number.value
+        here, before, around = number.at, number.value, []
         for direction in _directions(here.size, random, oblique=first > last):
-            number(np.clip(here + step * direction, 0, 1))
+            around.append(number(np.clip(here + step * direction, 0, 1)) - before)
             if number.value < before:
                 step = min(2 * step, first)
                 break
         else:
             values.append(number.value)
             step *= _SHRINK
-    # Next to a border values go as the square root of the step, which halves what is left.
-    error = values[max(-len(values), -3)] - number.value
+    # Next to a border values go as the square root of the step, which halves what is left; across
+    # a kink they rise with it.
+    rise = max((value for value in around if isfinite(value)), default=0.0)
+    error = max(values[max(-len(values), -3)] - number.value, rise)
     return Extreme(number.value, error, number.at)
 
 

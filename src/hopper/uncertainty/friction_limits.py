@@ -8,6 +8,7 @@ takes over; how far the interpolant is off is tested, and within that nothing is
 from itertools import product
 
 import numpy as np
+from scipy.optimize import brentq
 
 from hopper.arguments import RealRow, checked
 from hopper.arrays import Array
@@ -18,7 +19,7 @@ from hopper.uncertainty.interpolation import interpolated, interpolation_nodes
 from hopper.uncertainty.sampling import points_in_box
 
 # Nodes in one range and in two, points of the test (a power of 2), and what is claimed beside it.
-_NODES, _TESTS, _SAFETY, _LEAST = {0: 1, 1: 9, 2: 5}, 0, 3.0, 1e-9
+_NODES, _TESTS, _SAFETY, _LEAST = {0: 1, 1: 9, 2: 5}, 0, 3.0, 1e-8
 
 
 class FrictionLimits:
@@ -43,9 +44,33 @@ class FrictionLimits:
         place = np.asarray(point, dtype=float)
         if np.any((place < 0) | (place > 1)):
             return False
-        material, _ = self.box.hopper(place)
         # NaN, where a node is not resolved, excludes nothing.
-        return bool(material.friction_angle > self._interpolated(place[self.own]) + self.margin)
+        return self._below(place) < -self.margin
+
+    @checked
+    def border(self, rest: RealRow, margins: float = 1.0) -> Array | None:
+        """Return the point where radial solutions end, that many margins before it.
+
+        The last of the wall, the half angle and delta that has a range is followed, at the other
+        coordinates ``rest``. None where there are solutions all along it, or nowhere.
+        """
+        names = [name for name in ("wall", "half_angle", "delta") if name in self.box.ranged]
+        axis = self.box.ranged.index(names[0])
+
+        def below(place: float) -> float:
+            at = np.insert(np.asarray(rest, dtype=float), axis, place)
+            return self._below(at) - margins * self.margin
+
+        ends = below(0.0), below(1.0)
+        if not ends[0] * ends[1] < 0:
+            return None
+        place = brentq(below, 0.0, 1.0, xtol=1e-12)
+        return np.insert(np.asarray(rest, dtype=float), axis, place)
+
+    def _below(self, place: Array) -> float:
+        """Return how far the wall at a point is below the largest friction angle."""
+        material, _ = self.box.hopper(place)
+        return self._interpolated(place[self.own]) - material.friction_angle
 
     def _limit(self, part: Array) -> float:
         point = self.box.middle.copy()

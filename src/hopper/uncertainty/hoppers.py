@@ -126,6 +126,14 @@ class Hoppers:
         return flow_pattern(*self.box.hopper(point))
 
     @checked
+    def border(self, rest: RealRow, margins: float = 1.0) -> Array | None:
+        """Return a point at the border of existence; None without one, or if none was met.
+
+        As :meth:`hopper.uncertainty.friction_limits.FrictionLimits.border`.
+        """
+        return self._limits[0].border(rest, margins) if self._limits else None
+
+    @checked
     def flow_labels(self, point: RealRow) -> list[str]:
         """Return whether there is mass flow at a point, in words; none where there is not."""
         flows = self.mass_flow(point)

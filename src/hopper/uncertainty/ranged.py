@@ -34,6 +34,8 @@ from hopper.yield_conditions import MOHR_COULOMB
 _POWER, _CLOSED_POWER = 5, 8
 # Of the first shift, those from which the search for extremes may start.
 _STARTS = 16
+# Of each range, places along the border of existence from which the search starts there.
+_ALONG = 5
 
 
 @dataclass(frozen=True)
@@ -145,7 +147,7 @@ def _answer(
     found = _shares(hoppers, labels, lambda at: at)
     numbers = {"spare": _spare(hoppers), **numbers}
     starts = points[0, :_STARTS]
-    intervals = {name: _interval(box, number, starts) for name, number in numbers.items()}
+    intervals = {name: _interval(hoppers, number, starts) for name, number in numbers.items()}
     known = {name: interval for name, interval in intervals.items() if interval}
     if "spare" in known:
         found = _confirmed(found, known["spare"])
@@ -179,8 +181,9 @@ def _confirmed(found: dict[str, Share], spare: Interval) -> dict[str, Share]:
     return found
 
 
-def _interval(box: Box, number: _Number, starts: Array) -> Interval | None:
+def _interval(hoppers: Hoppers, number: _Number, starts: Array) -> Interval | None:
     """Return the interval of a number over the ranges on which it depends."""
+    box = hoppers.box
     own = [i for i, name in enumerate(box.ranged) if name in number.depends]
 
     def lifted(part: Array) -> Array:
@@ -195,11 +198,43 @@ def _interval(box: Box, number: _Number, starts: Array) -> Interval | None:
     ends = extremes(lambda part: number.value(lifted(part)), samples)
     if ends is None:
         return None
+    if len(own) == len(box.ranged):
+        ends = _with_border(hoppers, number, ends)
 
     def quantity(end: Extreme) -> Quantity:
         return Quantity(end.value, end.error + number.error(lifted(end.at)))
 
     return Interval(*map(quantity, ends))
+
+
+def _with_border(
+    hoppers: Hoppers, number: _Number, ends: tuple[Extreme, Extreme]
+) -> tuple[Extreme, Extreme]:
+    """Return extremes, or those along the border of existence where they are further out.
+
+    Next to it numbers go as the square root of the distance, so that a search in the box does not
+    follow it: here it is followed.
+    """
+    rest = len(hoppers.box.ranged) - 1
+
+    def value(part: Array, margins: float = 1.0) -> float:
+        point = hoppers.border(part, margins)
+        return nan if point is None else number.value(point)
+
+    lattice = np.array(list(product(np.linspace(0, 1, _ALONG), repeat=rest)))
+    found = extremes(value, lattice)
+    if found is None:
+        return ends
+    both = []
+    for sign, inside, beside in zip((1, -1), ends, found, strict=True):
+        if sign * (beside.value - inside.value) >= 0:
+            both.append(inside)
+            continue
+        # As the square root of the distance: at four margins twice as far off as at one.
+        error = abs(value(beside.at, 4.0) - beside.value) + beside.error
+        point = hoppers.border(beside.at)
+        both.append(inside if point is None else Extreme(beside.value, error, point))
+    return both[0], both[1]
 
 
 def _of_solution(hoppers: Hoppers, number: Callable[[RadialSolution], float]) -> _Number:
