@@ -27,7 +27,8 @@ def test_the_share_of_a_quarter_of_a_disk(radius):
     points = points_in_box(2, 6)
     found = shares(lambda x: ["in"] if np.hypot(*x) < radius else ["out"], points)
     truth = pi * radius**2 / 4
-    assert abs(found["in"].value - truth) <= found["in"].error < 0.03
+    # Within the error in 95 of 100 cases, within twice the error in 998 of 1000.
+    assert abs(found["in"].value - truth) <= 2 * found["in"].error < 0.06
     assert found["in"].value + found["out"].value == pytest.approx(1, abs=1e-15)
 
 

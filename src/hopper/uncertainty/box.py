@@ -80,6 +80,12 @@ class Box:
             value: object = getattr(self, name)
             if not isinstance(value, Range):
                 raise InvalidParameterError(f"{name} = {shown(value)} is not a Range: give one")
+        condition: object = self.condition
+        if not isinstance(condition, YieldCondition):
+            raise InvalidParameterError(
+                f"condition = {shown(condition)} is not a yield condition: "
+                "use yield_condition(name)"
+            )
         if not isinstance(self.coefficient, bool):
             raise InvalidParameterError(
                 f"coefficient = {shown(self.coefficient)} is no truth value: give one"
@@ -98,8 +104,13 @@ class Box:
         """The coordinates of the middle."""
         return np.full(len(self.ranged), 0.5)
 
+    @checked
     def numbers(self, point: RealRow) -> dict[str, float]:
         """Return delta, wall and half angle at a point; beyond 0 and 1 outside the box."""
+        if np.size(point) != len(self.ranged):
+            raise InvalidParameterError(
+                f"point has {np.size(point)} coordinates: give {len(self.ranged)}"
+            )
         found = {name: getattr(self, name).low for name in NAMES}
         for name, share in zip(self.ranged, np.asarray(point).tolist(), strict=True):
             ends: Range = getattr(self, name)
@@ -115,10 +126,6 @@ class Box:
         InvalidParameterError
             If the point has another number of coordinates, or the hopper is impossible.
         """
-        if np.size(point) != len(self.ranged):
-            raise InvalidParameterError(
-                f"point has {np.size(point)} coordinates: give {len(self.ranged)}"
-            )
         at = self.numbers(point)
         friction = atan(at["wall"]) if self.coefficient else at["wall"]
         return Material(self.geometry, at["delta"], friction, self.condition), at["half_angle"]

@@ -79,9 +79,9 @@ def design_over(
     HopperError
         As :func:`hopper.design.design.design` in the middle of the box.
     """
+    require_angle("margin", margin, zero_allowed=True)
     if not box.ranged or "half_angle" in box.ranged:
         raise InvalidParameterError("box has no range of delta or wall, or one of half angles")
-    require_angle("margin", margin, zero_allowed=True)
     at_middle = design(box.hopper(box.middle)[0], margin, demand, disturbances)
     known: dict[bytes, Design | None] = {box.middle.tobytes(): at_middle}
 

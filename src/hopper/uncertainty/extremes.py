@@ -16,6 +16,7 @@ from scipy.optimize import minimize
 from hopper.arguments import RealLike, checked
 from hopper.arrays import Array
 from hopper.brief import brief
+from hopper.errors import InvalidParameterError
 
 # Spread, relative to the values, of what is constant.
 _CONSTANT = 1e-10
@@ -53,6 +54,10 @@ def extremes(number: Callable[[Array], float], samples: RealLike) -> tuple[Extre
     (n, d), are where the search begins.
     """
     points = np.asarray(samples, dtype=float)
+    if points.ndim != 2 or not len(points):
+        raise InvalidParameterError(
+            f"samples have the shape {points.shape}: give (n, d), one at least"
+        )
     values = np.array([number(point) for point in points])
     if not np.isfinite(values).any():
         return None

@@ -1,7 +1,7 @@
 """Shares of a box and probabilities by quasi Monte Carlo, with errors of their own.
 
-Points are Sobol's, shifted digitally at random: every shift gives an unbiased share, and how far
-those of independent shifts scatter is its error [Owen, Monte Carlo theory, methods and examples,
+Points are Sobol's, scrambled at random: every scrambling gives an unbiased share, and how far those
+of independent scramblings scatter is its error [Owen, Monte Carlo theory, methods and examples,
 2013, ch. 17].
 """
 
@@ -19,7 +19,7 @@ from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 
-# Independent shifts, and bits of the points.
+# Independent scramblings (shifts), and bits of the points.
 SHIFTS, _BITS, _SEED = 8, 30, 20001114
 # Chance that the truth lies within an error.
 _CONFIDENCE = 0.95
@@ -48,10 +48,12 @@ def points_in_box(dimensions: int, power: int) -> Array:
         raise InvalidParameterError(
             f"dimensions = {dimensions} or power = {power} is out of range: give 1 to 16, 0 to 16"
         )
-    sobol = qmc.Sobol(dimensions, scramble=False, bits=_BITS).random_base2(power)
-    whole = np.round(sobol * 2**_BITS).astype(np.int64)
-    shifts = np.random.default_rng(_SEED).integers(2**_BITS, size=(SHIFTS, 1, dimensions))
-    return ((whole ^ shifts) + 0.5) / 2**_BITS
+    each = (
+        qmc.Sobol(dimensions, bits=_BITS, seed=np.random.default_rng([_SEED, number]))
+        for number in range(SHIFTS)
+    )
+    # In the middle of what the last bit is worth: never 0, of which no normal value is finite.
+    return np.array([one.random_base2(power) for one in each]) + 2.0 ** -(_BITS + 1)
 
 
 @checked
@@ -60,25 +62,52 @@ def normal_points(points: RealLike, possible: RealLike) -> Array:
 
     Their means are 0.5 and their standard deviations 0.5: the box is one deviation around the
     mean. ``possible``, shape (d, 2), is between which values they are cut off.
+
+    Raises
+    ------
+    InvalidParameterError
+        If the shapes do not go together.
     """
-    low, high = ndtr(2 * np.asarray(possible).T - 1)
-    return (1 + ndtri(low + points * (high - low))) / 2
+    low, high = _chances(possible)
+    if np.shape(points)[-1:] != low.shape:
+        raise InvalidParameterError(
+            f"points have the shape {np.shape(points)}: give {low.size} coordinates to each"
+        )
+    return (1 + ndtri(low + np.asarray(points) * (high - low))) / 2
 
 
 @checked
 def cut_off(possible: RealLike) -> float:
-    """Return the probability of what :func:`normal_points` cuts off."""
-    low, high = ndtr(2 * np.asarray(possible).T - 1)
+    """Return the probability of what :func:`normal_points` cuts off, as that."""
+    low, high = _chances(possible)
     return float(1 - np.prod(high - low))
+
+
+def _chances(possible: RealLike) -> tuple[Array, Array]:
+    """Return the probabilities of lying below the ends of what is possible."""
+    ends = np.asarray(possible, dtype=float)
+    if ends.ndim != 2 or ends.shape[1] != 2:
+        raise InvalidParameterError(f"possible has the shape {ends.shape}: give (d, 2)")
+    low, high = ndtr(2 * ends.T - 1)
+    return low, high
 
 
 @checked
 def shares(labels: Callable[[Array], Iterable[str]], points: RealLike) -> dict[str, Share]:
     """Return the share of the points, shape (shifts, n, d), at which each label holds.
 
-    The error is that of the mean of the shifts, at least a point's share: less is not seen.
+    The error is that of the mean of the shifts, and at least as if a point of each were wrong.
+
+    Raises
+    ------
+    InvalidParameterError
+        If the points have another shape.
     """
     shifts = np.asarray(points, dtype=float)
+    if shifts.ndim != 3 or len(shifts) < 2 or not shifts.shape[1]:
+        raise InvalidParameterError(
+            f"points have the shape {shifts.shape}: give two shifts at least, (shifts, n, d)"
+        )
     counts = [Counter(label for point in shifted for label in labels(point)) for shifted in shifts]
     names = dict.fromkeys(name for count in counts for name in count)
     each = shifts.shape[1]
@@ -89,4 +118,5 @@ def _share(values: Sequence[float], each: int) -> Share:
     shifts = len(values)
     factor = float(stdtrit(shifts - 1, (1 + _CONFIDENCE) / 2))
     scatter = factor * float(np.std(values, ddof=1)) / sqrt(shifts)
-    return Share(float(np.mean(values)), max(scatter, 1 / (shifts * each)))
+    # A few shifts may agree by chance: each may have counted a point too many.
+    return Share(float(np.mean(values)), max(scatter, 1 / (each * sqrt(shifts))))
