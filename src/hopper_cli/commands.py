@@ -232,6 +232,7 @@ def _march(options: Namespace) -> str:
         return documents.as_json(
             case.echoed() | asked,
             rows,
+            sentence=designs.mass_flow(case),
             breakdown_kind=found.kind,
             breakdown_error=found.breakdown and found.breakdown.error,
             breakdown_x=found.breakdown_x,
@@ -250,9 +251,13 @@ def _march(options: Namespace) -> str:
         ("residual of the momentum balance", f"{found.residual:.0e} rho g"),
     ]
     return documents.as_text(
-        f"Stress march: {case}, top {top.name}",
+        designs.mass_flow(case),
         cells,
-        [*found.notes, sentences.march_sentence(found, options.depth)],
+        [
+            f"Stress march: {case}, top {top.name}",
+            *found.notes,
+            sentences.march_sentence(found, options.depth),
+        ],
     )
 
 
@@ -272,6 +277,7 @@ def _neutral(options: Namespace) -> str:
         return documents.as_json(
             inputs,
             rows,
+            sentence=sentences.neutral_sentence(geometry, found),
             neutral_points=[_point(point) for point in found.points],
             stable_intervals_deg=[_interval(interval) for interval in found.intervals],
             governed_by=first and first.governed_by,
@@ -280,9 +286,9 @@ def _neutral(options: Namespace) -> str:
             notes=options.doubts,
         )
     return documents.as_text(
-        f"Neutral stability: {kind}, half angle {options.half_angle:g} deg, {wall}",
+        sentences.neutral_sentence(geometry, found),
         text.neutral_cells(found),
-        [sentences.neutral_sentence(geometry, found)],
+        [f"Neutral stability: {kind}, half angle {options.half_angle:g} deg, {wall}"],
     )
 
 

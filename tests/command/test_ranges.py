@@ -3,6 +3,7 @@
 import csv
 import json
 from io import StringIO
+from itertools import pairwise
 
 import pytest
 
@@ -130,9 +131,7 @@ BAD = [
 def test_what_is_refused_before_any_work(run, no_computation, options, message):
     given = {"--delta": "40", "--half-angle": "20", "--phi": "10"}
     words = options.split()
-    given |= {
-        key: value for key, value in zip(words, words[1:], strict=False) if key.startswith("--")
-    }
+    given |= {key: value for key, value in pairwise(words) if key.startswith("--")}
     flags = ["--normal"] * (given.pop("--normal", None) is not None or "--normal" in words)
     parts = [f"{key}={value}" for key, value in given.items()]
     code, out, err = run(" ".join(["radial --geometry cone", *parts, *flags]))

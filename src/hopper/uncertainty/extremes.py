@@ -52,6 +52,11 @@ def extremes(number: Callable[[Array], float], samples: RealLike) -> tuple[Extre
 
     ``number`` takes a point, shape (d,), and is NaN where it does not exist; ``samples``, shape
     (n, d), are where the search begins.
+
+    Raises
+    ------
+    InvalidParameterError
+        If the samples have another shape.
     """
     points = np.asarray(samples, dtype=float)
     if points.ndim != 2 or not len(points):
