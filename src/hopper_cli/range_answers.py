@@ -57,6 +57,12 @@ def answer(options: Namespace) -> str:
     return _text_or_json(options, found, _STABILITY)
 
 
+def judged_over(options: Namespace) -> Ranged:
+    """Return the verdicts over a range: of stability, of von Mises cones of the radial solution."""
+    box = box_of(options)
+    return radial_over(box) if options.model == "von-mises" else stability_over(box)
+
+
 def box_of(options: Namespace) -> Box:
     """Return the hoppers of ranges.
 
@@ -106,7 +112,7 @@ def _design(options: Namespace, box: Box) -> str:
             notes=[*options.doubts, *found.middle.notes],
         )
     cells = [cell for pair in zip(low, high, strict=True) if (cell := _cell(*pair))]
-    cells += _share_cells(found.shares, found.probabilities)
+    cells += share_cells(found.shares, found.probabilities)
     words = [*_explanation(options, low + high), *found.middle.notes]
     return documents.as_text(first, cells, words)
 
@@ -141,7 +147,7 @@ def _text_or_json(options: Namespace, found: Ranged, table: Table) -> str:
             notes=[*options.doubts, *notes],
         )
     cells = [cell for pair in zip(low, high, strict=True) if (cell := _cell(*pair))]
-    cells += _share_cells(found.shares, found.probabilities)
+    cells += share_cells(found.shares, found.probabilities)
     return documents.as_text(first, cells, [*_explanation(options, low + high), *notes])
 
 
@@ -159,9 +165,10 @@ def _end(row: Row) -> str:
     return text.with_error(value, error) if error > least else text.rounded(value, least)
 
 
-def _share_cells(
-    shares: dict[str, Share], probabilities: dict[str, Share] | None
+def share_cells(
+    shares: dict[str, Share], probabilities: dict[str, Share] | None = None
 ) -> list[tuple[str, str]]:
+    """Return in words what holds, and in which share of the range."""
     cells = []
     for name in dict.fromkeys([*shares, *(probabilities or {})]):
         words = f"{_percent(shares[name])} of the range" if name in shares else "not in the range"

@@ -133,7 +133,12 @@ BAD = [
     ({"mu": -0.1}, r"'cases\[1\].mu': -0.1 is less than the minimum"),
     ({"mu": float("nan")}, r"'cases\[1\].mu' is nan: give a finite number"),
     ({"mu": 0.85}, r"'cases\[1\].mu': wall friction angle phi = 40.3645 deg has no wall angle"),
-    ({"phi_deg": 10}, r"'cases\[1\]': .*'phi_deg' was unexpected"),
+    ({"phi_deg": 10}, r"'cases\[1\].mu': give one of mu and phi_deg, not both"),
+    ({"delta_deg": "40:36"}, r"'cases\[1\].delta_deg': '40:36' is upside down: give the smaller"),
+    ({"delta_deg": "38"}, r"'cases\[1\].delta_deg': '38' does not match"),
+    ({"delta_deg": "30:60:1"}, r"'cases\[1\].delta_deg': '30:60:1' does not match"),
+    ({"half_angle_deg": "0:20"}, r"'cases\[1\].half_angle_deg': '0:20' crosses a limit"),
+    ({"delta_deg": "30:40", "mu": "0.5:0.6"}, r"'cases\[1\].mu': wall friction angle phi = 30.96"),
 ]
 
 
@@ -148,7 +153,7 @@ def test_a_bad_case_is_named(config, change, message):
 def test_a_case_lacks_a_key(config):
     del config["cases"][0]["mu"]
     with pytest.raises(
-        configuration.ConfigurationError, match=r"'cases\[0\]': 'mu' is a required property"
+        configuration.ConfigurationError, match=r"'cases\[0\].mu': give one of mu and phi_deg$"
     ):
         configuration.check(config, SCHEMA)
 
