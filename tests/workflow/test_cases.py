@@ -1,5 +1,6 @@
 """Hoppers of the list `cases`: artifacts, pages, honest partial results, bad names."""
 
+import csv
 import subprocess
 import sys
 from math import atan, radians
@@ -100,9 +101,33 @@ def test_cases_without_an_answer_hold_what_there_is_and_say_why(fresh):
 
 
 @pytest.mark.workflow
+def test_ranges_have_shares_and_all_cases_a_table(fresh):
+    rough = {key: value for key, value in STEEL.items() if key != "mu"} | {"phi_deg": "14:18"}
+    cases = [
+        {**rough, "name": "ranged", "delta_deg": "38+-2", "half_angle_deg": 32},
+        {**STEEL, "name": "beyond", "mu": 0.48, "description": "too rough"},
+    ]
+    fresh.set("cases", cases)
+    fresh.build("results/cases.csv", "figures/case_ranged.png")
+    with (fresh.path / "results/cases.csv").open(newline="", encoding="utf-8") as file:
+        ranged, beyond = csv.DictReader(file)
+    assert ranged["sentence"].startswith(
+        "Mass flow: yes, with 0.796 deg of half angle to spare; in "
+    )
+    assert (ranged["delta_deg"], ranged["phi_deg"]) == ("38+-2", "14:18")
+    data = artifacts.read(fresh.path / "results/cases/ranged.nc")
+    assert ranged["shares"] == data.shares
+    assert "no radial solution: 31 +- 1 % of the range" in data.shares
+    assert float(ranged["abscissa"]) == float(data.abscissa)
+    assert beyond["verdict"] == "no_radial_solution"
+    assert beyond["abscissa"] == ""
+    assert "the largest friction that has one is" in beyond["reason"]
+
+
+@pytest.mark.workflow
 def test_a_new_case_makes_its_own_artifact_and_page_only(rebuilt, config):
     rebuilt.set("cases", [*config["cases"], {**STEEL, "name": "rough", "mu": 0.31}])
-    assert rebuilt.reruns() == {"compute_case/rough", "plot_case/rough"}
+    assert rebuilt.reruns() == {"compute_case/rough", "plot_case/rough", "summarise_cases"}
     rebuilt.set("cases", [{**config["cases"][0], "description": "another"}])
     assert rebuilt.reruns() == {"plot_case/steel_cone"}
     rebuilt.set("cases", [])

@@ -70,7 +70,10 @@ rule summarise_cases:
         "../../envs/hopper.yaml"
     threads: 1
     params:
-        cases=config["cases"],
+        cases=[
+            {key: value for key, value in case.items() if key != "description"}
+            for case in config["cases"]
+        ],
     message:
         "summarise_cases: All hoppers of the list cases in one table"
     script:
