@@ -12,7 +12,7 @@ import numpy as np
 from hopper.arrays import Array, Complex
 from hopper.assessment.coupled import CoupledStability, assess_coupled, assess_coupled_neutral
 from hopper.assessment.limits import assess_limits, tangency_coefficient
-from hopper.assessment.march import assess_march
+from hopper.assessment.march import MarchAssessment, assess_march
 from hopper.assessment.neutral import Interval, NeutralPoint, assess_neutral
 from hopper.assessment.radial import assess_radial
 from hopper.assessment.stability import StabilityAssessment, assess_stability
@@ -242,23 +242,27 @@ def _march(options: Namespace) -> str:
             error_estimate=found.error_estimate,
             notes=[*options.doubts, *found.notes],
         )
-    cells = text.number_cells(rows)
-    if found.breakdown_x is not None:
-        cells.insert(1, ("where that is: theta", f"{found.breakdown_x:.3f} theta_w"))
-    cells += [
-        ("marched down to tau", f"{found.end:.6g}"),
-        ("error of log(sigma) and psi", f"{found.error_estimate:.0e}"),
-        ("residual of the momentum balance", f"{found.residual:.0e} rho g"),
-    ]
     return documents.as_text(
         designs.mass_flow(case),
-        cells,
+        _march_cells(found, rows),
         [
             f"Stress march: {case}, top {top.name}",
             *found.notes,
             sentences.march_sentence(found, options.depth),
         ],
     )
+
+
+def _march_cells(found: MarchAssessment, rows: list[tables.Row]) -> list[tuple[str, str]]:
+    cells = text.number_cells(rows)
+    if found.breakdown_x is not None:
+        cells.insert(1, ("where that is: theta", f"{found.breakdown_x:.3f} theta_w"))
+    return [
+        *cells,
+        ("marched down to tau", f"{found.end:.6g}"),
+        ("error of log(sigma) and psi", f"{found.error_estimate:.0e}"),
+        ("residual of the momentum balance", f"{found.residual:.0e} rho g"),
+    ]
 
 
 def _neutral(options: Namespace) -> str:

@@ -22,12 +22,8 @@ def hoppers(count, seed):
     for _ in range(count):
         geometry = str(random.choice(["cone", "wedge"]))
         delta, half_angle = random.uniform(22, 65), random.uniform(4, 55)
-        yield (
-            geometry,
-            round(delta, 3),
-            round(half_angle, 3),
-            round(random.uniform(0, 0.9 * delta), 3),
-        )
+        phi = random.uniform(0, 0.9 * delta)
+        yield geometry, *(round(angle, 3) for angle in (delta, half_angle, phi))
 
 
 def row_of(geometry, delta, half_angle, phi):

@@ -16,7 +16,7 @@ from hopper.radial.solution import solve_radial
 from hopper.radial.velocity import solve_velocity
 from hopper.stability.modes import linear_stability
 from hopper.uncertainty.box import Box, Range
-from hopper.uncertainty.hoppers import Hoppers
+from hopper.uncertainty.hoppers import BoxedHoppers
 from hopper.uncertainty.ranged import radial_over, stability_over
 from hopper.yield_conditions import VON_MISES
 
@@ -161,7 +161,7 @@ def test_smooth_walls_are_stable_and_flow():
 @pytest.mark.parametrize("geometry", ["cone", "wedge"])
 def test_mass_flow_at_a_point_is_that_of_the_flow_pattern(geometry):
     of = Box(geometry, angles(25, 60), Range(0.05, 0.45), angles(8, 50), coefficient=True)
-    hoppers, random = Hoppers(of), np.random.default_rng(5)
+    hoppers, random = BoxedHoppers(of), np.random.default_rng(5)
     for point in random.random((25, 3)):
         assert hoppers.mass_flow(point) == flow_pattern(*of.hopper(point)).mass_flow, point
 

@@ -18,7 +18,7 @@ from hopper.quantity import Quantity
 from hopper.stability.modes import Disturbances
 from hopper.uncertainty.box import Box
 from hopper.uncertainty.interpolation import interpolated, interpolation_nodes
-from hopper.uncertainty.ranged import Interval
+from hopper.uncertainty.ranged import Extent
 from hopper.uncertainty.sampling import Share, normal_points, points_in_box, shares
 from hopper.values import require_angle
 
@@ -51,7 +51,7 @@ class RangedDesign:
     """
 
     middle: Design
-    numbers: dict[str, Interval]
+    numbers: dict[str, Extent]
     recommended: Quantity | None
     shares: dict[str, Share]
     probabilities: dict[str, Share] | None
@@ -109,7 +109,7 @@ def design_over(
     )
 
 
-def _recommended(numbers: dict[str, Interval], margin: float) -> Quantity | None:
+def _recommended(numbers: dict[str, Extent], margin: float) -> Quantity | None:
     """Return the margin below the smallest limit of the whole box."""
     limits = [numbers[name].low for limit in LIMITS if (name := f"half_angles.{limit}") in numbers]
     least = min(limits, key=lambda limit: limit.value, default=None)
@@ -131,7 +131,7 @@ def _table(lattice: list[Design | None], name: str, dimensions: int) -> Array:
     return values.reshape([_NODES[dimensions]] * dimensions)
 
 
-def _interval(found: Callable[[Array], Design | None], name: str, table: Array) -> Interval | None:
+def _interval(found: Callable[[Array], Design | None], name: str, table: Array) -> Extent | None:
     if np.isnan(table).all():
         return None
     whole = not np.isnan(table).any()
@@ -149,7 +149,7 @@ def _interval(found: Callable[[Array], Design | None], name: str, table: Array) 
         # Where it exists in a part only, no more is known than between neighbours.
         off = abs(quantity.value - values[place]) if whole else float(np.nanstd(table))
         ends.append(Quantity(quantity.value, quantity.error + off))
-    return Interval(*ends)
+    return Extent(*ends)
 
 
 def _governors(limits: Array, points: Array) -> dict[str, Share]:

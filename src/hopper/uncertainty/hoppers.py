@@ -28,7 +28,7 @@ _TOLERANCE, _OTHERS = 1e-9, 1e-5
 
 
 @dataclass(frozen=True)
-class Hoppers:
+class BoxedHoppers:
     """The hoppers of a box; what was looked up is kept.
 
     Parameters

@@ -3,30 +3,21 @@
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import product
-from math import nan, tan
+from math import nan
 
 import numpy as np
 
 from hopper.arguments import checked
 from hopper.arrays import Array
-from hopper.assessment.limits import coefficient, tangency_coefficient
-from hopper.assessment.propagation import ROUNDING, with_errors
-from hopper.assessment.radial import wall_velocity
 from hopper.brief import brief
 from hopper.design.flow_pattern import FlowPattern
-from hopper.domain.borders import tangency_friction
-from hopper.errors import HopperError, InvalidParameterError
-from hopper.problem import Hopper
+from hopper.errors import InvalidParameterError
 from hopper.quantity import Quantity
-from hopper.radial.flow_factor import flow_factor
-from hopper.radial.friction_limit import friction_limit
-from hopper.radial.mass_flow import mass_flow_friction_angle
-from hopper.radial.solution import RadialSolution
-from hopper.radial.velocity import solve_velocity
-from hopper.stability.modes import Disturbances, LinearStability, parities_among
+from hopper.stability.modes import Disturbances, parities_among
 from hopper.uncertainty.box import Box
 from hopper.uncertainty.extremes import Extreme, extremes
-from hopper.uncertainty.hoppers import Hoppers
+from hopper.uncertainty.hoppers import BoxedHoppers
+from hopper.uncertainty.numbers import Number, radial_numbers, spare_number, stability_numbers
 from hopper.uncertainty.sampling import Share, cut_off, normal_points, points_in_box, shares
 from hopper.yield_conditions import MOHR_COULOMB
 
@@ -39,7 +30,7 @@ _ALONG = 5
 
 
 @dataclass(frozen=True)
-class Interval:
+class Extent:
     """The least and the largest value over a box, with what is uncertain of each."""
 
     low: Quantity
@@ -67,21 +58,12 @@ class Ranged:
     """
 
     pattern: FlowPattern
-    numbers: dict[str, Interval]
+    numbers: dict[str, Extent]
     shares: dict[str, Share]
     probabilities: dict[str, Share] | None
     cut_off: float
 
     __repr__ = brief("pattern.mass_flow", "shares")
-
-
-@dataclass(frozen=True)
-class _Number:
-    """A number at a point of a box, its error there, and the ranges on which it depends."""
-
-    value: Callable[[Array], float]
-    error: Callable[[Array], float]
-    depends: tuple[str, ...] = ("delta", "wall", "half_angle")
 
 
 @checked
@@ -95,13 +77,8 @@ def radial_over(box: Box, normal: bool = False) -> Ranged:
     InvalidParameterError
         If the box is a single hopper.
     """
-    hoppers = Hoppers(box)
-    numbers = {name: _of_solution(hoppers, number) for name, number in _RADIAL.items()}
-    for place, name in enumerate(("theta_psi_max", "psi_max")):
-        numbers[name] = _psi_maximum(hoppers, place)
-    numbers["u_wall"] = _velocity(hoppers)
-    numbers |= _limits(hoppers)
-    return _answer(hoppers, numbers, hoppers.radial_labels, normal)
+    hoppers = BoxedHoppers(box)
+    return _answer(hoppers, radial_numbers(hoppers), hoppers.radial_labels, normal)
 
 
 @checked
@@ -118,25 +95,18 @@ def stability_over(
         If the box is a single hopper, of another than Mohr-Coulomb material, or asymmetric
         disturbances of a cone are asked for.
     """
-    hoppers = Hoppers(box, disturbances)
+    hoppers = BoxedHoppers(box, disturbances)
     if box.condition != MOHR_COULOMB:
         raise InvalidParameterError(
             "box is of another than Mohr-Coulomb material: its stability is not looked at"
         )
     parities_among(disturbances, box.geometry)
-    numbers = {
-        "line": _of_modes(hoppers, lambda found: (found.line.abscissa, found.line.error_estimate)),
-        "abscissa": _of_modes(hoppers, lambda found: (found.abscissa, found.error_estimate)),
-        "symmetric": _of_modes(hoppers, lambda found: found.symmetric),
-        "asymmetric": _of_modes(hoppers, lambda found: found.asymmetric or (nan, nan)),
-        "tangency": _limits(hoppers)["tangency"],
-    }
-    return _answer(hoppers, numbers, hoppers.stability_labels, normal)
+    return _answer(hoppers, stability_numbers(hoppers), hoppers.stability_labels, normal)
 
 
 def _answer(
-    hoppers: Hoppers,
-    numbers: dict[str, _Number],
+    hoppers: BoxedHoppers,
+    numbers: dict[str, Number],
     labels: Callable[[Array], Iterable[str]],
     normal: bool,
 ) -> Ranged:
@@ -145,7 +115,7 @@ def _answer(
         raise InvalidParameterError("box is a single hopper: give a range")
     points = points_in_box(len(box.ranged), _POWER)
     found = _shares(hoppers, labels, lambda at: at)
-    numbers = {"spare": _spare(hoppers), **numbers}
+    numbers = {"spare": spare_number(hoppers), **numbers}
     starts = points[0, :_STARTS]
     intervals = {name: _interval(hoppers, number, starts) for name, number in numbers.items()}
     known = {name: interval for name, interval in intervals.items() if interval}
@@ -159,7 +129,9 @@ def _answer(
 
 
 def _shares(
-    hoppers: Hoppers, labels: Callable[[Array], Iterable[str]], placed: Callable[[Array], Array]
+    hoppers: BoxedHoppers,
+    labels: Callable[[Array], Iterable[str]],
+    placed: Callable[[Array], Array],
 ) -> dict[str, Share]:
     """Return shares by points of the unit box that ``placed`` puts where they are wanted."""
     dimensions = len(hoppers.box.ranged)
@@ -171,7 +143,7 @@ def _shares(
     return found
 
 
-def _confirmed(found: dict[str, Share], spare: Interval) -> dict[str, Share]:
+def _confirmed(found: dict[str, Share], spare: Extent) -> dict[str, Share]:
     """Return the shares with that of mass flow for certain, where the half angle to spare says."""
     sampled = found.get("mass_flow", Share(0.0, 0.0)).value
     if sampled == 1 and spare.low.value > spare.low.error:
@@ -181,7 +153,7 @@ def _confirmed(found: dict[str, Share], spare: Interval) -> dict[str, Share]:
     return found
 
 
-def _interval(hoppers: Hoppers, number: _Number, starts: Array) -> Interval | None:
+def _interval(hoppers: BoxedHoppers, number: Number, starts: Array) -> Extent | None:
     """Return the interval of a number over the ranges on which it depends."""
     box = hoppers.box
     own = [i for i, name in enumerate(box.ranged) if name in number.depends]
@@ -204,11 +176,11 @@ def _interval(hoppers: Hoppers, number: _Number, starts: Array) -> Interval | No
     def quantity(end: Extreme) -> Quantity:
         return Quantity(end.value, end.error + number.error(lifted(end.at)))
 
-    return Interval(*map(quantity, ends))
+    return Extent(*map(quantity, ends))
 
 
 def _with_border(
-    hoppers: Hoppers, number: _Number, ends: tuple[Extreme, Extreme]
+    hoppers: BoxedHoppers, number: Number, ends: tuple[Extreme, Extreme]
 ) -> tuple[Extreme, Extreme]:
     """Return extremes, or those along the border of existence where they are further out.
 
@@ -235,114 +207,3 @@ def _with_border(
         point = hoppers.border(beside.at)
         both.append(inside if point is None else Extreme(beside.value, error, point))
     return both[0], both[1]
-
-
-def _of_solution(hoppers: Hoppers, number: Callable[[RadialSolution], float]) -> _Number:
-    def value(point: Array) -> float:
-        solution = hoppers.solved(point)
-        return nan if isinstance(solution, str) else number(solution)
-
-    def error(point: Array) -> float:
-        solution = hoppers.solved(point)
-        if isinstance(solution, str):
-            return nan
-        return with_errors(solution, lambda one: np.array([number(one)]))[0].error
-
-    return _Number(value, error)
-
-
-_RADIAL: dict[str, Callable[[RadialSolution], float]] = {
-    "sigma_axis": lambda solution: solution.sigma_axis,
-    "sigma_wall": lambda solution: solution.sigma_wall,
-    "psi_wall": lambda solution: solution.psi_wall,
-    "flow_factor": flow_factor,
-}
-
-
-def _psi_maximum(hoppers: Hoppers, place: int) -> _Number:
-    slow = _of_solution(hoppers, lambda solution: solution.psi_maximum()[place])
-    return _Number(lambda point: hoppers.psi_maximum(point)[place], slow.error)
-
-
-def _velocity(hoppers: Hoppers) -> _Number:
-    def value(point: Array) -> float:
-        solution = hoppers.solved(point)
-        try:
-            return nan if isinstance(solution, str) else solve_velocity(solution).wall
-        except HopperError:
-            return nan
-
-    def error(point: Array) -> float:
-        solution = hoppers.solved(point)
-        return nan if isinstance(solution, str) else wall_velocity(solution)[1].error
-
-    return _Number(value, error)
-
-
-def _spare(hoppers: Hoppers) -> _Number:
-    def error(point: Array) -> float:
-        quantity = hoppers.pattern(point).spare
-        return quantity.error if quantity else nan
-
-    return _Number(hoppers.half_angle_to_spare, error)
-
-
-def _of_modes(
-    hoppers: Hoppers, numbers: Callable[[LinearStability], tuple[float, float]]
-) -> _Number:
-    def at(point: Array) -> tuple[float, float]:
-        found = hoppers.stability(point)
-        return (nan, nan) if isinstance(found, str) else numbers(found)
-
-    return _Number(lambda point: at(point)[0], lambda point: at(point)[1])
-
-
-def _limits(hoppers: Hoppers) -> dict[str, _Number]:
-    """Return the limits of friction, on which the wall of the hopper itself has no influence."""
-
-    def at(point: Array) -> Hopper:
-        material, half_angle = hoppers.box.hopper(point)
-        return material.hopper(half_angle)
-
-    def number(value: Callable[[Hopper], float], name: str) -> _Number:
-        def found(point: Array) -> float:
-            try:
-                return value(at(point))
-            except HopperError:
-                return nan
-
-        def error(point: Array) -> float:
-            quantity = _LIMIT_ERRORS[name](at(point))
-            return quantity.error if quantity else nan
-
-        return _Number(found, error, ("delta", "half_angle"))
-
-    return {
-        "coefficient": number(lambda one: _largest(one).value, "coefficient"),
-        "fold": number(_fold, "fold"),
-        "mass_flow": number(mass_flow_friction_angle, "mass_flow"),
-        "tangency": number(_tangency, "tangency"),
-    }
-
-
-def _largest(hopper: Hopper) -> Quantity:
-    limit = friction_limit(hopper)
-    return coefficient(Quantity(limit.friction_angle, limit.error_estimate + ROUNDING))
-
-
-_LIMIT_ERRORS: dict[str, Callable[[Hopper], Quantity | None]] = {
-    "coefficient": _largest,
-    "fold": _largest,
-    "mass_flow": lambda hopper: Quantity(0.0, ROUNDING),
-    "tangency": tangency_coefficient,
-}
-
-
-def _fold(hopper: Hopper) -> float:
-    limit = friction_limit(hopper)
-    return tan(limit.friction_angle) if limit.end == "fold" else nan
-
-
-def _tangency(hopper: Hopper) -> float:
-    phi = tangency_friction(hopper)
-    return nan if phi is None else tan(phi)
