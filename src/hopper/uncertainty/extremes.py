@@ -27,7 +27,7 @@ _CURVATURE = 0.05
 # Two starts are this far apart at least, and not further in value, relative to the spread.
 _APART, _NEAR = 0.3, 0.25
 # Steps of the search by comparisons, and of the look around what slopes have found.
-_FIRST, _LAST, _SHRINK, _AROUND = 2.0**-3, 2.0**-9, 0.25, 2.0**-5
+_FIRST, _LAST, _SHRINK, _AROUND = 2.0**-3, 2.0**-7, 0.25, 2.0**-5
 _DESCENTS, _SEED = 30, 1
 
 
@@ -58,17 +58,22 @@ def extremes(number: Callable[[Array], float], samples: RealLike) -> tuple[Extre
     InvalidParameterError
         If the samples have another shape.
     """
+    low, high = least(number, samples), least(lambda point: -number(point), samples)
+    if low is None or high is None:
+        return None
+    return low, Extreme(-high.value, high.error, high.at)
+
+
+@checked
+def least(number: Callable[[Array], float], samples: RealLike) -> Extreme | None:
+    """Return the least value alone, as :func:`extremes`."""
     points = np.asarray(samples, dtype=float)
     if points.ndim != 2 or not len(points):
         raise InvalidParameterError(
             f"samples have the shape {points.shape}: give (n, d), one at least"
         )
     values = np.array([number(point) for point in points])
-    if not np.isfinite(values).any():
-        return None
-    low = _least(number, points, values)
-    high = _least(lambda point: -number(point), points, -values)
-    return low, Extreme(-high.value, high.error, high.at)
+    return _least(number, points, values) if np.isfinite(values).any() else None
 
 
 def _least(number: Callable[[Array], float], points: Array, values: Array) -> Extreme:

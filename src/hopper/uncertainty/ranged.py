@@ -15,7 +15,7 @@ from hopper.errors import InvalidParameterError
 from hopper.quantity import Quantity
 from hopper.stability.modes import Disturbances, parities_among
 from hopper.uncertainty.box import Box
-from hopper.uncertainty.extremes import Extreme, extremes
+from hopper.uncertainty.extremes import Extreme, extremes, least
 from hopper.uncertainty.hoppers import BoxedHoppers
 from hopper.uncertainty.numbers import Number, radial_numbers, spare_number, stability_numbers
 from hopper.uncertainty.sampling import Share, cut_off, normal_points, points_in_box, shares
@@ -194,16 +194,21 @@ def _with_border(
         return nan if point is None else number.value(point)
 
     lattice = np.array(list(product(np.linspace(0, 1, _ALONG), repeat=rest)))
-    found = extremes(value, lattice)
-    if found is None:
-        return ends
+    values = np.array([value(place) for place in lattice])
     both = []
-    for sign, inside, beside in zip((1, -1), ends, found, strict=True):
-        if sign * (beside.value - inside.value) >= 0:
+    for sign, inside in zip((1, -1), ends, strict=True):
+        further = np.nanmin(np.append(sign * values, np.inf)) < sign * inside.value
+        beside = least(_times(sign, value), lattice) if further else None
+        if beside is None:
             both.append(inside)
             continue
+        beside = Extreme(sign * beside.value, beside.error, beside.at)
         # As the square root of the distance: at four margins twice as far off as at one.
         error = abs(value(beside.at, 4.0) - beside.value) + beside.error
         point = hoppers.border(beside.at)
         both.append(inside if point is None else Extreme(beside.value, error, point))
     return both[0], both[1]
+
+
+def _times(sign: int, value: Callable[[Array], float]) -> Callable[[Array], float]:
+    return lambda part: sign * value(part)
