@@ -203,8 +203,9 @@ def _with_border(
             both.append(inside)
             continue
         beside = Extreme(sign * beside.value, beside.error, beside.at)
-        # As the square root of the distance: at four margins twice as far off as at one.
-        error = abs(value(beside.at, 4.0) - beside.value) + beside.error
+        # As the square root of the distance: at four margins twice as far off as at one; twice
+        # that, as the border itself is known within a margin.
+        error = 2 * abs(value(beside.at, 4.0) - beside.value) + beside.error
         point = hoppers.border(beside.at)
         both.append(inside if point is None else Extreme(beside.value, error, point))
     return both[0], both[1]
