@@ -27,7 +27,7 @@ _CURVATURE = 0.05
 # Two starts are this far apart at least, and not further in value, relative to the spread.
 _APART, _NEAR = 0.3, 0.25
 # Steps of the search by comparisons, and of the look around what slopes have found.
-_FIRST, _LAST, _SHRINK, _AROUND = 2.0**-3, 2.0**-7, 0.25, 2.0**-5
+_FIRST, _LAST, _SHRINK, _AROUND = 2.0**-3, 2.0**-9, 0.25, 2.0**-5
 _DESCENTS, _SEED = 30, 1
 
 
