@@ -36,6 +36,7 @@ rule all:
     input:
         expand("figures/{figure}.{suffix}", figure=FIGURES, suffix=["png", "pdf"]),
         LEDGER,
+        ["results/cases.csv"] if config["cases"] else [],
 
 
 # Of one's own command line only: a host of this workflow has other targets.

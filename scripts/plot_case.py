@@ -6,7 +6,7 @@ from typing import Any
 import xarray as xr
 from matplotlib.axes import Axes
 
-from hopper_workflow import artifacts, jobs, plotting
+from hopper_workflow import artifacts, jobs, own_hoppers, plotting
 from hopper_cli import drawing, text
 from hopper_data.tables import Row, number
 
@@ -25,7 +25,7 @@ def plot_case(artifact: str, png: str, pdf: str, *, case: dict[str, Any]) -> Non
         parts = [parts]
     if "sigma" in profiles:
         panels = parts[0].subplots(1, 3 if "u" in profiles else 2)
-        drawing.draw_fields(panels, case["delta_deg"], profiles)
+        drawing.draw_fields(panels, own_hoppers.middle(case).delta_deg, profiles)
     if "eigenvalue" in data:
         spectrum, numbers = parts[-1].subplots(1, 2, width_ratios=[1, 1.7])
         modes = data.eigenvalue.to_numpy()
@@ -41,10 +41,15 @@ def plot_case(artifact: str, png: str, pdf: str, *, case: dict[str, Any]) -> Non
 
 
 def _title(data: xr.Dataset, case: dict[str, Any]) -> str:
-    given = {key: case[key] for key in ("geometry", "model", "delta_deg", "half_angle_deg", "mu")}
+    given = own_hoppers.middle(case).echoed()
+    del given["phi_deg"]
     verdict = data.outcome.item().replace("_", " ")
     words = [case["name"].replace("_", " "), case.get("description", "")]
-    return f"{drawing.title(verdict, **given)}\n{': '.join(filter(None, words))}"
+    title = f"{drawing.title(verdict, **given)}\n{': '.join(filter(None, words))}"
+    if "shares" not in data.attrs:
+        return title
+    shares = textwrap.fill(f"In the middle of the given range, of which: {data.shares}", 110)
+    return f"{title}\n{drawing.typeset(shares)}"
 
 
 def _write_numbers(axis: Axes, data: xr.Dataset) -> None:

@@ -177,6 +177,12 @@ def results():
     from hopper.stability.paper_frame import coefficients
     from hopper.stability.tilted import tilted_coefficients
     from hopper.stability.transient import modal_basis
+    from hopper.uncertainty.box import Box, Range
+    from hopper.uncertainty.designs import design_over
+    from hopper.uncertainty.extremes import extremes
+    from hopper.uncertainty.hoppers import BoxedHoppers
+    from hopper.uncertainty.numbers import spare_number
+    from hopper.uncertainty.ranged import Ranged
     from hopper.von_mises.following import upper_strip
     from hopper.von_mises.high_frequency import high_frequency
     from hopper.von_mises.linearisation import coefficients as coupled_coefficients
@@ -217,6 +223,8 @@ def results():
     steel_wall = Material("cone", radians(40), radians(16))
     wanted = Demand(linear_flow_function(0.5, 0.3), 900.0)
     found_design = design(steel_wall, radians(3), wanted)
+    box = Box("cone", Range(radians(39), radians(40)), Range(0.2, 0.2), Range(0.1, 0.1))
+    boxed, over = BoxedHoppers(box), design_over(box, radians(3))
     found = [
         cone, cone.material, solution, solution.member, solution.member.grid,
         solution.member.closure, hopper.friction_limit(cone), CriticalPoint(0.1, -1.0, 3.0),
@@ -256,6 +264,10 @@ def results():
         *coupled_coefficients(von_mises, [von_mises.member.grid]),
         neutral_point(radians(10), 0.1), neutral_flow(radians(10), 0.1),
         upper_strip(hopper.solve_radial(hard, 0.1)), coupled_neutral_curve(radians(10), 0.1, 0.05),
+        box, box.delta, boxed, over, over.shares["classical"], spare_number(boxed),
+        over.numbers["half_angles.classical"],
+        Ranged(flow_pattern(steel_wall, 0.2), {}, {}, None, 0.0),
+        *(extremes(lambda x: float(x[0]), [[0.0], [1.0]]) or ()),
     ]  # fmt: skip
     assert all(found)
     return {type(item).__name__: item for item in found}

@@ -6,7 +6,7 @@ from math import atan, radians
 from pathlib import Path
 from typing import Any
 
-from hopper_workflow import entries
+from hopper_workflow import entries, own_hoppers
 from hopper.errors import InvalidParameterError, WallFrictionError
 from hopper.yield_conditions import yield_condition
 
@@ -21,6 +21,9 @@ def violations(config: Mapping[str, Any]) -> Iterator[Violation]:
     yield from _drawing(config)
     yield from _counts(config)
     yield from entries.problems(config)
+    for index, case in enumerate(config["cases"]):
+        for name, problem in own_hoppers.problems(case):
+            yield f"cases[{index}].{name}", problem
     for key, case in _hoppers(config):
         yield from _wall(key, **case)
     for key, geometry, top in _tops(config):
@@ -99,7 +102,8 @@ def _hoppers(config: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
     for name, case in config["fig_vm_spectra"]["hoppers"].items():
         yield f"fig_vm_spectra.hoppers.{name}", {**case, "model": "von-mises"}
     for index, case in enumerate(config["cases"]):
-        yield f"cases[{index}]", case
+        if not list(own_hoppers.problems(case)):
+            yield f"cases[{index}]", own_hoppers.roughest(case)
 
 
 def _marched(config: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]]]:
@@ -148,7 +152,7 @@ def _wall(
 ) -> Iterator[Violation]:
     """Check that the model is formulated for the geometry, and transmits the wall friction."""
     if model == "von-mises" and geometry == "wedge":
-        name = "model" if at == "mu" else "models"
+        name = "models" if "[" in at else "model"
         yield f"{key}.{name}", "von-mises is formulated for cones only"
     try:
         yield_condition(model).wall_angle(radians(delta_deg), atan(mu))

@@ -12,7 +12,7 @@ import numpy as np
 from hopper.arrays import Array, Complex
 from hopper.assessment.coupled import CoupledStability, assess_coupled, assess_coupled_neutral
 from hopper.assessment.limits import assess_limits, tangency_coefficient
-from hopper.assessment.march import assess_march
+from hopper.assessment.march import MarchAssessment, assess_march
 from hopper.assessment.neutral import Interval, NeutralPoint, assess_neutral
 from hopper.assessment.radial import assess_radial
 from hopper.assessment.stability import StabilityAssessment, assess_stability
@@ -210,6 +210,7 @@ def _march(options: Namespace) -> str:
         return documents.as_json(
             case.echoed() | asked,
             rows,
+            sentence=designs.mass_flow(case),
             breakdown_kind=found.kind,
             breakdown_error=found.breakdown and found.breakdown.error,
             breakdown_x=found.breakdown_x,
@@ -219,19 +220,27 @@ def _march(options: Namespace) -> str:
             error_estimate=found.error_estimate,
             notes=[*options.doubts, *found.notes],
         )
+    return documents.as_text(
+        designs.mass_flow(case),
+        _march_cells(found, rows),
+        [
+            f"Stress march: {case}, top {top.name}",
+            *found.notes,
+            sentences.march_sentence(found, options.depth),
+        ],
+    )
+
+
+def _march_cells(found: MarchAssessment, rows: list[tables.Row]) -> list[tuple[str, str]]:
     cells = text.number_cells(rows)
     if found.breakdown_x is not None:
         cells.insert(1, ("where that is: theta", f"{found.breakdown_x:.3f} theta_w"))
-    cells += [
+    return [
+        *cells,
         ("marched down to tau", f"{found.end:.6g}"),
         ("error of log(sigma) and psi", f"{found.error_estimate:.0e}"),
         ("residual of the momentum balance", f"{found.residual:.0e} rho g"),
     ]
-    return documents.as_text(
-        f"Stress march: {case}, top {top.name}",
-        cells,
-        [*found.notes, sentences.march_sentence(found, options.depth)],
-    )
 
 
 def _neutral(options: Namespace) -> str:
@@ -250,6 +259,7 @@ def _neutral(options: Namespace) -> str:
         return documents.as_json(
             inputs,
             rows,
+            sentence=sentences.neutral_sentence(geometry, found),
             neutral_points=[_point(point) for point in found.points],
             stable_intervals_deg=[_interval(interval) for interval in found.intervals],
             governed_by=first and first.governed_by,
@@ -258,9 +268,9 @@ def _neutral(options: Namespace) -> str:
             notes=options.doubts,
         )
     return documents.as_text(
-        f"Neutral stability: {kind}, half angle {options.half_angle:g} deg, {wall}",
+        sentences.neutral_sentence(geometry, found),
         text.neutral_cells(found),
-        [sentences.neutral_sentence(geometry, found)],
+        [f"Neutral stability: {kind}, half angle {options.half_angle:g} deg, {wall}"],
     )
 
 

@@ -34,9 +34,9 @@ def answer(options: Namespace) -> str:
         wall.friction_angle,
         yield_condition(options.model),
     )
-    demand = _demand(options)
+    needed = demand(options)
     try:
-        found = design(material, radians(options.margin), demand, options.disturbances)
+        found = design(material, radians(options.margin), needed, options.disturbances)
     except InvalidParameterError as error:
         option = "--flow-function" if options.flow_function else "--flow-function-intercept"
         raise UsageError(f"argument {option}: {error}") from None
@@ -70,7 +70,14 @@ def mass_flow(case: Case) -> str:
     return sentences.mass_flow_sentence(flow_pattern(case.material, case.hopper.half_angle))
 
 
-def _demand(options: Namespace) -> Demand | None:
+def demand(options: Namespace) -> Demand | None:
+    """Return what an outlet is asked to be wide enough for, None if nothing.
+
+    Raises
+    ------
+    UsageError
+        If the flow function cannot be read.
+    """
     if options.bulk_density is None:
         return None
     if options.flow_function is None:

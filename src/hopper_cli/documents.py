@@ -32,6 +32,22 @@ def as_json(inputs: dict[str, Any], rows: Sequence[Row], **more: Any) -> str:
     return json.dumps(_finite(document), indent=2, allow_nan=False)
 
 
+def over_ranges(inputs: dict[str, Any], rows: Sequence[tuple[Row, Row]], **more: Any) -> str:
+    """Return an answer over ranges: as :func:`as_json`, numbers and errors as [low, high]."""
+    rows = [
+        *rows,
+        *((a.in_degrees(), b.in_degrees()) for a, b in rows if a.variable.units == "radian"),
+    ]
+    known = {
+        low.variable.name: (low, high) if low.value is not None else None for low, high in rows
+    }
+    numbers = {name: pair and [row.value for row in pair] for name, pair in known.items()}
+    errors = {name: [row.error for row in pair] for name, pair in known.items() if pair}
+    return json.dumps(
+        _finite({**inputs, **numbers, **more, "errors": errors}), indent=2, allow_nan=False
+    )
+
+
 def _finite(value: Any) -> Any:
     """Return a JSON value with null for what is not finite: JSON has no NaN."""
     if isinstance(value, dict):

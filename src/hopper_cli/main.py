@@ -7,9 +7,8 @@ import argparse
 import json
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
 from typing import NoReturn
 
@@ -17,14 +16,15 @@ from hopper.errors import HopperError, InvalidParameterError
 from hopper_cli import (
     about,
     chart_options,
+    checks,
     design_options,
     hints,
     march_options,
+    ranges,
     sheet_options,
     values,
 )
 from hopper_cli.errors import UsageError
-from hopper_cli.outputs import FileError, checked
 
 _NO_ANSWER, _USAGE, _INTERRUPTED, _BROKEN_PIPE = 1, 2, 130, 141
 
@@ -37,12 +37,6 @@ EXAMPLES = {
     "design": "hopper design --geometry cone --delta 40 --phi 16",
     "march": "hopper march --geometry wedge --delta 45 --half-angle 15 --mu 0.2 --top bump-s "
     "--eps 0.2 --depth 1",
-}
-# The extra of the distribution and its libraries that a file of this suffix needs.
-_LIBRARIES = {
-    ".csv": ("", list[str]()),
-    ".xlsx": ("data", ["openpyxl"]),
-    ".nc": ("data", ["xarray", "netCDF4"]),
 }
 # What answers a command, where that is no part of `commands`.
 _MODULES = {"design": "designs", "table": "sheets", "chart": "charts"}
@@ -80,7 +74,7 @@ def _run(arguments: Sequence[str]) -> int:
     try:
         options = _parser().parse_args(arguments)
         options.doubts = doubts = hints.doubts(options)
-        _check(options)
+        checks.check(options)
         # Only now: the numerics take most of the time.
         answer = _answer(options)
     except SystemExit as finished:  # --help and --version
@@ -99,13 +93,21 @@ def _run(arguments: Sequence[str]) -> int:
 
 
 def _answer(options: argparse.Namespace) -> str:
-    module = import_module(f"hopper_cli.{_MODULES.get(options.command, 'commands')}")
-    answer: str = module.answer(options)
+    answer: str = import_module(f"hopper_cli.{_module(options)}").answer(options)
     if getattr(options, "explain", False):
         from hopper_cli import documents
 
         answer = documents.explained(answer)
     return answer
+
+
+def _module(options: argparse.Namespace) -> str:
+    """Return the module that answers: each imports what it needs, and that takes its time."""
+    if ranges.of_kind(options, ranges.Given):
+        return "range_answers"
+    if ranges.of_kind(options, ranges.Steps):
+        return "sweeps"
+    return _MODULES.get(options.command, "commands")
 
 
 def _fail(message: str, code: int) -> int:
@@ -138,7 +140,7 @@ def _parser() -> argparse.ArgumentParser:
         (stability, "eigenvalues"),
         (march, "fields over depth and polar angle"),
     ):
-        _add_hopper(command)
+        _add_hopper(command, ranged=command is not march)
         _add_files(command, profile)
     march_options.add(march)
     neutral = _command(
@@ -162,8 +164,10 @@ def _add_design(commands: "argparse._SubParsersAction[_Parser]") -> argparse.Arg
     design = _command(
         commands, "design", "how wide a hopper may be for mass flow, and its smallest outlet"
     )
-    _add_material(design)
-    _add_wall(design)
+    _add_material(design, ranged=True)
+    _add_wall(design, ranged=True)
+    _add_ranges(design)
+    design.add_argument("--force", action="store_true", help="overwrite an existing file")
     design_options.add(design)
     return design
 
@@ -185,19 +189,37 @@ def _add_modes(stability: argparse.ArgumentParser, *others: argparse.ArgumentPar
         )
 
 
-def _add_hopper(command: argparse.ArgumentParser) -> None:
-    _add_material(command)
-    _add_half_angle_and_wall(command)
+def _add_hopper(command: argparse.ArgumentParser, *, ranged: bool) -> None:
+    _add_material(command, ranged=ranged)
+    _add_half_angle_and_wall(command, ranged=ranged)
+    if ranged:
+        _add_ranges(command)
 
 
-def _add_material(command: argparse.ArgumentParser) -> None:
+def _add_ranges(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--normal",
+        action="store_true",
+        help="probabilities too: x+-s is mean and standard deviation of independent normal values",
+    )
+    command.add_argument(
+        "--out",
+        type=Path,
+        metavar="FILE",
+        help="write the table of steps, --delta 30:60:1, to FILE.csv, .json or .nc",
+    )
+
+
+def _add_material(command: argparse.ArgumentParser, *, ranged: bool) -> None:
     _add_geometry_and_model(command)
     command.add_argument(
         "--delta",
-        type=values.angle,
+        type=_of(values.angle, ranged),
         required=True,
         metavar="DEG",
-        help="angle of internal friction",
+        help="angle of internal friction; 38+-2 or 36:40 if it is known in a range"
+        if ranged
+        else "angle of internal friction",
     )
 
 
@@ -244,84 +266,29 @@ def _add_geometry_and_model(command: argparse.ArgumentParser) -> None:
     )
 
 
-def _add_half_angle_and_wall(command: argparse.ArgumentParser) -> None:
+def _of(single: Callable[[str], float], ranged: bool) -> Callable[[str], ranges.Value]:
+    return ranges.ranged(single) if ranged else single
+
+
+def _add_half_angle_and_wall(command: argparse.ArgumentParser, *, ranged: bool = False) -> None:
     command.add_argument(
         "--half-angle",
-        type=values.angle,
+        type=_of(values.angle, ranged),
         required=True,
         metavar="DEG",
         help="half opening angle, from the vertical",
     )
-    _add_wall(command)
+    _add_wall(command, ranged=ranged)
 
 
-def _add_wall(command: argparse.ArgumentParser) -> None:
+def _add_wall(command: argparse.ArgumentParser, *, ranged: bool) -> None:
     wall = command.add_mutually_exclusive_group(required=True)
-    wall.add_argument("--mu", type=values.coefficient, help="coefficient of friction, tan(phi)")
-    wall.add_argument("--phi", type=values.wall_angle, metavar="DEG", help="angle of wall friction")
-
-
-def _check(options: argparse.Namespace) -> None:
-    """Find what the parser cannot: options that do not go together, files, missing libraries.
-
-    Raises
-    ------
-    UsageError
-        If an option is wrong.
-    """
-    if options.command == "table":
-        sheet_options.check(options)
-        if options.out.suffix.lower() in _LIBRARIES:
-            _require_libraries("--out", options.out.suffix.lower())
-        return
-    if options.command == "chart":
-        chart_options.check(options)
-        _require_libraries("--out", options.out.suffix.lower())
-        return
-    if options.explain and options.json:
-        raise UsageError("argument --explain: explains text: leave out --json")
-    if getattr(options, "disturbances", None) == "any" and options.geometry == "cone":
-        raise UsageError(
-            "argument --disturbances: asymmetric disturbances are singular at the apex of a cone: "
-            "use symmetric or --geometry wedge"
-        )
-    if options.model == "von-mises" and options.geometry == "wedge":
-        raise UsageError(
-            "argument --model: von-mises is formulated for cones only: use --geometry cone or "
-            "--model mohr-coulomb"
-        )
-    if options.command == "march":
-        march_options.check(options)
-        if Path(options.top).suffix.lower() == ".nc":
-            _require_libraries("--top", ".nc")
-    if options.command == "design":
-        design_options.check(options)
-    if options.command in ("neutral", "design"):
-        return
-    _check_files(options)
-
-
-def _check_files(options: argparse.Namespace) -> None:
-    for option, path, suffixes in (
-        ("--profile", options.profile, (".csv", ".nc")),
-        ("--plot", options.plot, (".png", ".pdf", ".svg")),
-    ):
-        if path is None:
-            continue
-        try:
-            checked(path, suffixes, overwrite=options.force)
-        except FileError as error:
-            raise UsageError(f"argument {option}: {error}") from None
-        _require_libraries(option, path.suffix.lower())
-
-
-def _require_libraries(option: str, suffix: str) -> None:
-    extra, libraries = _LIBRARIES.get(suffix, ("plot", ["matplotlib"]))
-    for library in libraries:
-        if find_spec(library) is None:
-            raise UsageError(
-                f"argument {option}: {suffix} needs {library}: install granular-hopper[{extra}]"
-            )
+    wall.add_argument(
+        "--mu", type=_of(values.coefficient, ranged), help="coefficient of friction, tan(phi)"
+    )
+    wall.add_argument(
+        "--phi", type=_of(values.wall_angle, ranged), metavar="DEG", help="angle of wall friction"
+    )
 
 
 if __name__ == "__main__":

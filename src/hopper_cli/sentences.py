@@ -1,6 +1,7 @@
 """Answers in words."""
 
 from math import degrees, exp
+from typing import TYPE_CHECKING
 
 from hopper.assessment.coupled import CoupledStability
 from hopper.assessment.march import MarchAssessment
@@ -12,6 +13,11 @@ from hopper.design.flow_pattern import FlowPattern
 from hopper.design.half_angles import Limit
 from hopper_cli.text import described
 
+if TYPE_CHECKING:  # sampling takes a second to import, and only ranges need it
+    from hopper.uncertainty.designs import RangedDesign
+    from hopper.uncertainty.ranged import Ranged
+    from hopper.uncertainty.sampling import Share
+
 _ENDS = {
     "fold": "where a second branch of solutions begins",
     "wall": "where the wall is as rough as the material",
@@ -20,15 +26,44 @@ _ENDS = {
 }
 
 
-def mass_flow_sentence(found: FlowPattern) -> str:
-    """Return whether there is mass flow, and with how much half angle to spare."""
-    if found.spare is None:
-        words = {True: "yes", False: "no", None: "not known"}
-        return f"Mass flow: {words[found.mass_flow]}, {found.reason}."
-    spare = f"{abs(degrees(found.spare.value)):.3g} deg"
-    if found.mass_flow:
-        return f"Mass flow: yes, with {spare} of half angle to spare."
-    return f"Mass flow: no, the half angle is {spare} too large."
+def mass_flow_sentence(found: FlowPattern, over: "Ranged | None" = None) -> str:
+    """Return whether there is mass flow, and with how much half angle to spare.
+
+    ``over`` is the answer over a range, of which ``found`` is the middle: then also in which share
+    of the range there is mass flow, and how probable it is.
+    """
+    words = {True: "yes", False: "no", None: "not known"}[found.mass_flow]
+    spare = found.spare and f"{abs(degrees(found.spare.value)):.3g} deg"
+    if spare is None:
+        words += f", {found.reason}"
+    elif found.mass_flow:
+        words += f", with {spare} of half angle to spare"
+    else:
+        words += f", the half angle is {spare} too large"
+    return f"Mass flow: {words}{_where(found, over) if over else ''}."
+
+
+def _where(found: FlowPattern, over: "Ranged") -> str:
+    """Return where in a range there is mass flow."""
+    what = "" if found.mass_flow else "mass flow "
+    words = f"; {what}in {_extent(over.shares.get('mass_flow'))} the given range"
+    if over.probabilities is not None:
+        chance = percent(over.probabilities.get("mass_flow"))
+        words += f", with a probability of {chance}"
+    return words
+
+
+def _extent(share: "Share | None") -> str:
+    if share is not None and not share.error:
+        return "all of" if share.value else "no part of"
+    return f"{percent(share)} of"
+
+
+def percent(share: "Share | None") -> str:
+    """Return a share without a fraction, None if it was nowhere seen."""
+    if share is None or share.value < 0.01:
+        return "less than 1 %"
+    return "more than 99 %" if share.value > 0.99 else f"{100 * share.value:.0f} %"
 
 
 _LIMITS: dict[Limit, str] = {
@@ -37,6 +72,21 @@ _LIMITS: dict[Limit, str] = {
     "velocity": "where radial flow ceases to reach the wall",
     "stability": "where the flow ceases to be stable",
 }
+
+
+def design_range_sentence(found: "RangedDesign", margin: float) -> str:
+    """Return the same over a range; ``margin`` in degrees."""
+    flows = found.numbers.get("half_angles.mass_flow")
+    words = found.middle.half_angles.no_mass_flow
+    if flows:
+        low, high = (f"{degrees(end.value):.4g}" for end in (flows.low, flows.high))
+        words = f"up to a half angle of {low} to {high} deg in the given range"
+    if found.recommended is None:
+        return f"Mass flow: {words}; no half angle is recommended."
+    return (
+        f"Mass flow: {words}; recommended {degrees(found.recommended.value):.4g} deg, {margin:.3g} "
+        "deg below the smallest limit of the whole range."
+    )
 
 
 def design_sentence(found: Design) -> str:

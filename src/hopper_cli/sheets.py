@@ -1,29 +1,26 @@
 """What ``hopper table`` answers: a list of hoppers, each row with its answer or its reason."""
 
-import csv
 import hashlib
 import json
 import multiprocessing
 import os
 import sys
 from argparse import Namespace
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from dataclasses import replace
-from itertools import chain, repeat
-from math import isfinite
+from itertools import repeat
 from pathlib import Path
 from time import monotonic
 from typing import Any
 
 from hopper.design.judgement import Judgement, judge_hopper
 from hopper.errors import HopperError
-from hopper_cli import sentences
+from hopper_cli import sentences, sheet_files
 from hopper_cli.columns import SHORT, Columns
 from hopper_cli.errors import UsageError
-from hopper_data.files import replacing
-from hopper_data.hopper_lists import HopperList, ListError, harmless, read_hoppers
+from hopper_data.hopper_lists import HopperList, ListError, read_hoppers
 
 # Rows of a task, and seconds between two reports of progress.
 _TASK, _BETWEEN = 20, 1.0
@@ -48,7 +45,9 @@ def answer(options: Namespace) -> str:
         raise UsageError(f"argument LIST: the column {taken[0]} is one of the answer's: rename it")
     try:
         answers = _answered(hoppers, columns, options.out, options.cores)
-        _write(options.out, hoppers, columns, answers)
+        rows = ({**given, **found} for given, found in zip(hoppers.rows, answers, strict=True))
+        sheet_files.write(options.out, (*hoppers.titles, *columns.titles), rows)
+        _journal(options.out).unlink(missing_ok=True)
     except OSError as error:
         raise UsageError(f"argument --out: {options.out} cannot be written: {error}") from error
     without = sum(not each["verdict"] for each in answers)
@@ -83,7 +82,7 @@ def _cells(found: Judgement) -> _Answer:
 
 def _answered(hoppers: HopperList, columns: Columns, out: Path, cores: int) -> list[_Answer]:
     """Answer what a run that was stopped has not, and keep each answer at once."""
-    journal = out.with_name(f".{out.name}.journal")
+    journal = _journal(out)
     mark = hashlib.sha256(repr((hoppers.titles, hoppers.rows, columns.titles)).encode()).hexdigest()
     known = _kept(journal, mark)
     missing = [row for row in range(len(hoppers.rows)) if row not in known]
@@ -105,6 +104,10 @@ def _answered(hoppers: HopperList, columns: Columns, out: Path, cores: int) -> l
             )
             raise
     return [known[row] for row in range(len(hoppers.rows))]
+
+
+def _journal(out: Path) -> Path:
+    return out.with_name(f".{out.name}.journal")
 
 
 def _kept(journal: Path, mark: str) -> dict[int, _Answer]:
@@ -156,47 +159,3 @@ def _workers(count: int) -> Iterator[Callable[..., Iterable[list[_Answer]]]]:
 
 def _task(hoppers: HopperList, columns: Columns) -> list[_Answer]:
     return [row_answer(hoppers, row, columns) for row in range(len(hoppers.rows))]
-
-
-def _write(out: Path, hoppers: HopperList, columns: Columns, answers: list[_Answer]) -> None:
-    titles = (*hoppers.titles, *columns.titles)
-    rows = ({**inputs, **found} for inputs, found in zip(hoppers.rows, answers, strict=True))
-    with replacing(out) as temporary:
-        if out.suffix.lower() == ".json":
-            temporary.write_text(json.dumps(list(rows), indent=2) + "\n", encoding="utf-8")
-        elif out.suffix.lower() == ".nc":
-            from hopper_data import sheets
-
-            sheets.write(temporary, titles, list(rows))
-        else:
-            cells = ([_cell(row[title]) for title in titles] for row in rows)
-            _spread(temporary, chain([titles], cells))
-    out.with_name(f".{out.name}.journal").unlink(missing_ok=True)
-
-
-def _spread(path: Path, rows: Iterable[Sequence[Any]]) -> None:
-    """Write rows for spreadsheets."""
-    if path.suffix.lower() == ".xlsx":
-        from openpyxl import Workbook
-
-        book = Workbook(write_only=True)
-        sheet = book.create_sheet("hoppers")
-        for row in rows:
-            sheet.append([_number(cell) for cell in row])
-        book.save(path)
-        return
-    with path.open("w", newline="", encoding="utf-8") as file:
-        csv.writer(file, lineterminator="\n").writerows(rows)
-
-
-def _number(cell: Any) -> Any:
-    """Return the number that a text spells, others as they are: a workbook knows numbers."""
-    try:
-        number = float(cell)
-    except (TypeError, ValueError):
-        return cell
-    return number if isfinite(number) else cell
-
-
-def _cell(value: Any) -> Any:
-    return harmless(value) if isinstance(value, str) else value

@@ -49,13 +49,14 @@ def number_cells(rows: Sequence[Row]) -> list[tuple[str, str]]:
     """Return label, and value with error and unit, of every number that exists."""
     shown = [row.in_degrees() if row.variable.units == "radian" else row for row in rows]
     return [
-        (row.variable.label, f"{with_error(row.value, row.error)} {_unit(row.variable)}".rstrip())
+        (row.variable.label, f"{with_error(row.value, row.error)} {unit(row.variable)}".rstrip())
         for row in shown
         if row.value is not None
     ]
 
 
-def _unit(variable: Variable) -> str:
+def unit(variable: Variable) -> str:
+    """Return the unit of a number for people."""
     return variable.scale or _UNITS.get(variable.units, variable.units)
 
 

@@ -53,3 +53,28 @@ rule plot_case:
         "plot_case/{wildcards.case}: The page of a hopper of the list cases"
     script:
         f"{SCRIPTS}/plot_case.py"
+
+
+rule summarise_cases:
+    """All hoppers of the list `cases` in one table."""
+    input:
+        paths=[f"results/cases/{case['name']}.nc" for case in config["cases"]],
+        code=code_of("summarise_cases"),
+    output:
+        table=report("results/cases.csv", caption="../report/cases.rst", category="Cases"),
+    log:
+        "logs/summarise_cases.log",
+    benchmark:
+        "logs/summarise_cases.benchmark.tsv"
+    conda:
+        "../../envs/hopper.yaml"
+    threads: 1
+    params:
+        cases=[
+            {key: value for key, value in case.items() if key != "description"}
+            for case in config["cases"]
+        ],
+    message:
+        "summarise_cases: All hoppers of the list cases in one table"
+    script:
+        f"{SCRIPTS}/summarise_cases.py"

@@ -20,6 +20,7 @@ from hopper_workflow import (
     effective,
     entries,
     live,
+    own_hoppers,
     requests,
     surroundings,
     targets,

@@ -108,9 +108,7 @@ def labels_of_case(wildcards):
         "case": case["name"],
         "verdict": cases.verdict(f"results/cases/{case['name']}.nc"),
         "hopper": case["geometry"],
-        "delta": f"{case['delta_deg']:g}°",
-        "half angle": f"{case['half_angle_deg']:g}°",
-        "mu": f"{case['mu']:g}",
+        **own_hoppers.shown(case),
     }
 
 

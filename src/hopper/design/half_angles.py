@@ -5,7 +5,7 @@ All are functions of the half angle at given delta and wall friction, so that an
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import degrees, isnan, nan, pi
+from math import degrees, isnan, nan, pi, radians
 from typing import Literal, TypeVar, get_args
 
 import numpy as np
@@ -44,6 +44,8 @@ _ROOT = 1e-12
 _SAMPLES, _BELOW = 16, (1e-8, 1e-6, 1e-4, 1e-2, 0.05, 0.2)
 # Relative distance of tau within which two members are one.
 _CLOSE = 1e-3
+# Cones have a radial solution up to the classical limit and mostly little beyond it (radians).
+_BESIDE = radians(2)
 # Step for slopes, radians.
 _STEP = 1e-6
 
@@ -188,17 +190,29 @@ def _limit(material: Material) -> Quantity:
             return -pi / 2  # not even for a smooth wall
         return found.friction_angle - material.friction_angle
 
-    if excess(NARROWEST) <= 0:
-        raise NowhereError("no half angle has a radial solution with this wall")
-    if excess(WIDEST) > 0:
-        raise NoLimitError("radial solutions exist at every half angle")
-    root = brentq(excess, NARROWEST, WIDEST, xtol=_ROOT)
+    root = brentq(excess, *_bracket(material, excess), xtol=_ROOT)
     try:
         here, before = (friction_limit(material.hopper(angle)) for angle in (root, root - _STEP))
     except NoRadialSolutionError:  # a smooth wall, of which the limit is where the family ends
         return Quantity(root, _STEP)
     slope = abs(before.friction_angle - here.friction_angle) / _STEP
     return Quantity(root, here.error_estimate / slope + _ROOT + ROUNDING if slope else _STEP)
+
+
+def _bracket(material: Material, excess: Callable[[float], float]) -> tuple[float, float]:
+    """Return half angles with a radial solution and without one, close where that is known."""
+    try:
+        near = _classical(material).value
+    except NoLimitError:
+        near = WIDEST
+    beyond = near + _BESIDE
+    if beyond < WIDEST and excess(near) > 0 and excess(beyond) <= 0:
+        return near, beyond
+    if excess(NARROWEST) <= 0:
+        raise NowhereError("no half angle has a radial solution with this wall")
+    if excess(WIDEST) > 0:
+        raise NoLimitError("radial solutions exist at every half angle")
+    return NARROWEST, WIDEST
 
 
 def _velocity(material: Material) -> Quantity:

@@ -18,6 +18,8 @@ from hopper.values import require_angle
 from hopper.yield_conditions import MOHR_COULOMB
 
 _LEAST_SIN_DELTA = 1 / 3
+# The least delta (radians) with a limit in closed form.
+LEAST_DELTA = asin(_LEAST_SIN_DELTA)
 
 
 def _apex_angle(hopper: Hopper) -> float:
@@ -29,7 +31,7 @@ def _apex_angle(hopper: Hopper) -> float:
     if hopper.s < _LEAST_SIN_DELTA:
         raise InvalidParameterError(
             f"delta = {degrees(hopper.delta):.6g} deg has no mass-flow limit: it needs "
-            f"delta >= {degrees(asin(_LEAST_SIN_DELTA)):.4f} deg (sin delta >= 1/3)"
+            f"delta >= {degrees(LEAST_DELTA):.4f} deg (sin delta >= 1/3)"
         )
     return (pi - acos((1 - hopper.s) / (2 * hopper.s))) / 2
 

@@ -1,0 +1,1 @@
+"""Answers about hoppers whose numbers are known in ranges: extremes, shares, probabilities."""
