@@ -70,7 +70,7 @@ def test_all_published_crossings(case):
     rays = crossing_of_rays(base_of_case(case), top_of_case(case), 1.05 * case["tau_b"])
     assert rays is not None
     assert rays.family == found.family
-    assert rays.error < (0.06 if case is AFTER_FOCUS else 1e-3)
+    assert rays.error < (0.08 if case is AFTER_FOCUS else 1e-3)
     assert rays.tau == pytest.approx(found.tau, abs=rays.error + found.error)
 
 
