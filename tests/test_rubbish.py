@@ -34,7 +34,7 @@ TOOLS = {
     "hopper.arguments", "hopper.brief", "hopper.errors", "hopper.radial.steps", "hopper.values",
     "hopper.spectral.sampling",
     *(f"hopper.march.{name}" for name in (
-        "crossing", "equations", "fields", "loop", "mapped", "net", "rays", "settling")),
+        "crossing", "equations", "fields", "history", "loop", "mapped", "net", "rays", "settling")),
 }  # fmt: skip
 
 

@@ -231,7 +231,9 @@ def interpreter(folder: Path, code: str) -> Path:
     venv.create(folder, clear=True, symlinks=True)
     (site,) = folder.glob("lib/python*/site-packages")
     (site / "packages.pth").write_text(sysconfig.get_path("purelib") + "\n", encoding="utf-8")
-    (site / "sitecustomize.py").write_text(code, encoding="utf-8")
+    # No sitecustomize: that of the system comes first where it has one.
+    (site / "at_start.pth").write_text("import at_start\n", encoding="utf-8")
+    (site / "at_start.py").write_text(code, encoding="utf-8")
     return folder / "bin/python"
 
 
