@@ -18,6 +18,7 @@ from selenium.webdriver.support.ui import WebDriverWait
 from tests.workflow.conftest import Workflow, copy
 
 pytestmark = pytest.mark.workflow
+CASES = "results/cases.csv"
 
 FLAGS = (
     *("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"),
@@ -108,11 +109,11 @@ def reader(browser: webdriver.Chrome, report: Path) -> Reader:
 
 
 def published(report: Path) -> set[str]:
-    """Every figure and every page that the workflow makes where the report belongs."""
+    """Every figure, page and table of cases that the workflow makes where the report belongs."""
     done = Workflow(report.parents[1]).snakemake("--summary")
     assert done.returncode == 0, done.stderr
     made = [line.split("\t")[0] for line in done.stdout.splitlines()[1:]]
-    return {path for path in made if path.endswith((".png", ".html"))}
+    return {path for path in made if path.endswith((".png", ".html")) or path == CASES}
 
 
 def test_every_figure_and_page_is_in_the_report(report: Path):
@@ -129,15 +130,20 @@ def test_every_figure_and_page_is_found_by_its_title(reader: Reader, report: Pat
             row = reader.wait(lambda: reader.all("nav tbody tr"))[index]
             title = row.text
             view, explain = row.find_elements(By.TAG_NAME, "a")
-            view.click()
-            expect_whole(reader, title)
-            found[title] = reader.value("app.state.resultPath")
+            if table := view.get_attribute("download"):  # a table, which nothing in a page shows
+                found[title] = table
+                assert view.get_attribute("href").startswith("data:")
+            else:
+                view.click()
+                expect_whole(reader, title)
+                found[title] = reader.value("app.state.resultPath")
             explain.click()
             caption = reader.wait(lambda: reader.all("nav li.prose"))[0].text
             assert len(caption) > len(title), f"{title}: {caption}"
             assert "{{" not in caption
             reader.click(category)
-    assert sorted(found.values()) == sorted(published(report))
+    # A table is known by its name alone.
+    assert sorted(found.values()) == sorted(published(report) - {CASES} | {Path(CASES).name})
     reader.expect_quiet()
 
 
