@@ -6,26 +6,31 @@ from typing import Any
 import xarray as xr
 from matplotlib.axes import Axes
 
-from hopper_workflow import artifacts, jobs, own_hoppers, plotting
+from hopper_workflow import artifacts, jobs, plotting
 from hopper_cli import drawing, text
 from hopper_data.tables import Row, number
 
 
-def plot_case(artifact: str, png: str, pdf: str, *, case: dict[str, Any]) -> None:
-    """Plot what the artifact holds; of a part that does not exist the numbers tell the reason."""
+def plot_case(
+    artifact: str, png: str, pdf: str, *, case: dict[str, Any], middle: dict[str, Any]
+) -> None:
+    """Plot what the artifact holds; of a part that does not exist the numbers tell the reason.
+
+    ``middle`` has the numbers of the hopper in the middle of the ranges.
+    """
     data = artifacts.read(artifact)
     profiles = {key: data[key].to_numpy() for key in _FIELDS if key in data.variables}
     rows = ["fields"] * ("sigma" in profiles) + ["numbers"]
     heights = {"fields": 2.4, "numbers": 2.9}
     figure, place = plotting.subplots(height=0.5 + sum(heights[row] for row in rows))
     place.remove()
-    figure.suptitle(_title(data, case), fontsize=8)
+    figure.suptitle(_title(data, case, middle), fontsize=8)
     parts = figure.subfigures(len(rows), 1, height_ratios=[heights[row] for row in rows])
     if len(rows) == 1:
         parts = [parts]
     if "sigma" in profiles:
         panels = parts[0].subplots(1, 3 if "u" in profiles else 2)
-        drawing.draw_fields(panels, own_hoppers.middle(case).delta_deg, profiles)
+        drawing.draw_fields(panels, middle["delta_deg"], profiles)
     if "eigenvalue" in data:
         spectrum, numbers = parts[-1].subplots(1, 2, width_ratios=[1, 1.7])
         modes = data.eigenvalue.to_numpy()
@@ -40,9 +45,8 @@ def plot_case(artifact: str, png: str, pdf: str, *, case: dict[str, Any]) -> Non
     plotting.save(figure, png, pdf)
 
 
-def _title(data: xr.Dataset, case: dict[str, Any]) -> str:
-    given = own_hoppers.middle(case).echoed()
-    del given["phi_deg"]
+def _title(data: xr.Dataset, case: dict[str, Any], middle: dict[str, Any]) -> str:
+    given = {key: value for key, value in middle.items() if key != "phi_deg"}
     verdict = data.outcome.item().replace("_", " ")
     words = [case["name"].replace("_", " "), case.get("description", "")]
     title = f"{drawing.title(verdict, **given)}\n{': '.join(filter(None, words))}"
