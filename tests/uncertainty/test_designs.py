@@ -64,6 +64,7 @@ def test_boxes_that_are_refused():
         design_over(Box("cone", angles(38, 40), angles(16), angles(1, 2)), MARGIN)
 
 
+@pytest.mark.soak
 def test_von_mises_cones_have_the_limit_of_velocity():
     found = design_over(Box("cone", angles(38, 40), angles(10), angles(1), VON_MISES), MARGIN)
     assert "half_angles.velocity" in found.numbers
