@@ -9,6 +9,8 @@ from hopper.design.flow_pattern import flow_pattern
 from hopper_cli import range_answers, ranges, sentences
 from hopper_data.assessments import comment, described
 from hopper_data.datasets import dataset
+from hopper_data.inputs import Case
+from hopper_data.walls import Wall
 
 
 def compute_case(artifact: str, provenance: str, *, case: dict[str, Any]) -> None:
@@ -16,7 +18,7 @@ def compute_case(artifact: str, provenance: str, *, case: dict[str, Any]) -> Non
 
     Of one that is given in ranges the middle is assessed, and shares of the ranges are added.
     """
-    given = own_hoppers.middle(case)
+    given = _middle(case)
     found = assess(given.hopper, given.wall.friction_angle)
     logging.info("%s: %s %s", given, found.outcome, found.reason)
     words = _words(case)
@@ -30,9 +32,15 @@ def compute_case(artifact: str, provenance: str, *, case: dict[str, Any]) -> Non
     )
 
 
+def _middle(case: dict[str, Any]) -> Case:
+    given = own_hoppers.middle(case)
+    wall = Wall(given.pop("mu"), given.pop("phi_deg"))
+    return Case(**given, wall=wall)
+
+
 def _words(case: dict[str, Any]) -> dict[str, str]:
     """Return the sentence of mass flow, and the shares of ranges."""
-    given, options = own_hoppers.middle(case), own_hoppers.options(case)
+    given, options = _middle(case), own_hoppers.options(case)
     pattern = flow_pattern(given.material, given.hopper.half_angle)
     if not ranges.of_kind(options, ranges.Given):
         return {"sentence": sentences.mass_flow_sentence(pattern)}

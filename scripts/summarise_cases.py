@@ -25,8 +25,7 @@ def summarise_cases(paths: Sequence[str], table: str, *, cases: Sequence[dict[st
 
 def _row(case: dict[str, Any], artifact: str) -> dict[str, Any]:
     data = artifacts.read(artifact)
-    wall = own_hoppers.middle(case).wall
-    given = {"mu": wall.mu, "phi_deg": wall.phi_deg} | case
+    given = own_hoppers.middle(case) | case
     numbers = {name: float(data[name]) if name in data else "" for name in _NUMBERS}
     words = {
         "sentence": data.attrs["sentence"],

@@ -191,8 +191,9 @@ def results():
     from hopper.von_mises.saint_venant import end_effects
     from hopper.von_mises.verdict import judge
     from hopper_data.hopper_lists import HopperList
-    from hopper_data.inputs import Case, Wall
+    from hopper_data.inputs import Case
     from hopper_data.tables import number, rows
+    from hopper_data.walls import Wall
 
     cone = hopper.Hopper("cone", radians(35), radians(10))
     solution = hopper.solve_radial(cone, 0.1)

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from hopper_cli import ranges, values
-from hopper_data.inputs import Case, Wall
+from hopper_data.walls import Wall
 
 _TYPES: dict[str, Callable[[str], float]] = {
     "delta_deg": values.angle,
@@ -47,16 +47,17 @@ def roughest(case: Mapping[str, Any]) -> dict[str, Any]:
     return {**case, "delta_deg": _end(given.delta, "low"), "mu": wall.mu, "at": key}
 
 
-def middle(case: Mapping[str, Any]) -> Case:
-    """Return the hopper in the middle of the ranges of a case."""
+def middle(case: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the hopper in the middle of the ranges of a case, its wall both ways."""
     given = options(case)
-    return Case(
-        given.geometry,
-        given.model,
-        _end(given.delta, "middle"),
-        _end(given.half_angle, "middle"),
-        Wall.of(_end(given.mu, "middle"), _end(given.phi, "middle")),
-    )
+    wall = Wall.of(_end(given.mu, "middle"), _end(given.phi, "middle"))
+    return {
+        "geometry": given.geometry,
+        "model": given.model,
+        "delta_deg": _end(given.delta, "middle"),
+        "half_angle_deg": _end(given.half_angle, "middle"),
+        **vars(wall),
+    }
 
 
 def _end(value: Any, name: str) -> Any:

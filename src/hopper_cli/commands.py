@@ -23,8 +23,9 @@ from hopper.stability.collocation import Parity
 from hopper_cli import designs, documents, progress, sentences, text, written
 from hopper_cli.errors import UsageError
 from hopper_data import assessments, tables
-from hopper_data.inputs import Case, Wall
+from hopper_data.inputs import Case
 from hopper_data.tops import top_of
+from hopper_data.walls import Wall
 
 _NO_TRANSIENT = (
     "no transient growth: the collocation matrix grows in ways that the equations do not"

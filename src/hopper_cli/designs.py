@@ -14,7 +14,8 @@ from hopper_cli import documents, sentences, text
 from hopper_cli.errors import UsageError
 from hopper_data import assessments, tables
 from hopper_data.flow_functions import read_flow_function
-from hopper_data.inputs import Case, Wall
+from hopper_data.inputs import Case
+from hopper_data.walls import Wall
 
 
 def answer(options: Namespace) -> str:

@@ -18,7 +18,7 @@ from hopper_cli.columns import Columns
 from hopper_cli.errors import UsageError
 from hopper_data import assessments, tables
 from hopper_data.hopper_lists import HopperList
-from hopper_data.inputs import Wall
+from hopper_data.walls import Wall
 
 _DESIGN = [name for one in assessments.DESIGN for name in (one.name, f"{one.name}_error")]
 _DESIGN_COLUMNS = ("sentence", "governed_by", *_DESIGN, "reason")

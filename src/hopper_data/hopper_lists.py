@@ -9,7 +9,8 @@ from pathlib import Path
 from hopper.brief import brief
 from hopper.errors import HopperError, InvalidParameterError
 from hopper.stability.modes import Disturbances
-from hopper_data.inputs import Case, Wall
+from hopper_data.inputs import Case
+from hopper_data.walls import Wall
 
 _NEEDED, _WALL = ("geometry", "delta", "half-angle"), ("mu", "phi")
 _OPTIONAL = {"model": "mohr-coulomb", "disturbances": ""}

@@ -1,13 +1,14 @@
 """A hopper as people give it: names, and angles in degrees."""
 
 from dataclasses import asdict, dataclass
-from math import atan, degrees, radians, tan
-from typing import Any, Self
+from math import atan, radians
+from typing import Any
 
 from hopper.design.material import Material
 from hopper.problem import Hopper, as_geometry
 from hopper.radial.solution import RadialSolution, solve_radial
 from hopper.yield_conditions import yield_condition
+from hopper_data.walls import Wall
 
 
 def hopper_of(
@@ -29,32 +30,6 @@ def solution_of(
 ) -> RadialSolution:
     """Return the radial solution of the physical branch, as :func:`hopper_of`."""
     return solve_radial(hopper_of(geometry, delta_deg, half_angle_deg, model), atan(mu))
-
-
-@dataclass(frozen=True)
-class Wall:
-    """Wall friction, both as coefficient ``mu`` = tan(phi) and as angle ``phi_deg`` (degrees)."""
-
-    mu: float
-    phi_deg: float
-
-    @classmethod
-    def of(cls, mu: float | None = None, phi_deg: float | None = None) -> Self:
-        """Return the wall of the one that is given."""
-        if phi_deg is not None:
-            return cls(tan(radians(phi_deg)), phi_deg)
-        if mu is None:
-            raise TypeError("give mu or phi_deg")
-        return cls(mu, degrees(atan(mu)))
-
-    @property
-    def friction_angle(self) -> float:
-        """Phi, radians."""
-        return atan(self.mu)
-
-    def __str__(self) -> str:
-        """Return both, rounded."""
-        return f"mu = {self.mu:.6g} (phi = {self.phi_deg:.6g} deg)"
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,8 @@ from hopper.errors import HopperError
 from hopper_cli import sentences, sheets
 from hopper_cli.columns import Columns
 from hopper_data.hopper_lists import HopperList
-from hopper_data.inputs import Case, Wall
+from hopper_data.inputs import Case
+from hopper_data.walls import Wall
 
 YES = re.compile("^Mass flow: yes")
 SPARE = re.compile(r"with ([\d.e-]+) deg of half angle|half angle is ([\d.e-]+) deg too large")

@@ -1,6 +1,9 @@
 """Bad configurations end in one readable error that names the key, before any job starts."""
 
 import copy
+import os
+import subprocess
+import sys
 from math import atan, radians
 
 import numpy as np
@@ -157,3 +160,16 @@ def test_the_papers_frame_is_used_beyond_the_tangency_and_says_where_it_is_singu
     assert np.degrees(psi[0]) == pytest.approx(45 - 35 / 2, abs=1e-9)
     log = (fresh.path / "logs/compute_spectrum/fig_4_2_cone_80.log").read_text()
     assert f"A of (4.1) is singular at theta = {float(found.singular_theta):.4f} deg" in log
+
+
+def test_reading_a_configuration_loads_no_numerics():
+    """Every start of Snakemake reads it: SciPy alone would double what that takes."""
+    code = "import sys; from hopper_workflow import relations; print('scipy' in sys.modules)"
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env={**os.environ, "PYTHONPATH": str(ROOT / "scripts")},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout == "False\n"

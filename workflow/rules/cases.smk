@@ -49,7 +49,7 @@ rule plot_case:
     threads: 1
     params:
         case=own_hopper,
-        middle=lambda wildcards: own_hoppers.middle(own_hopper(wildcards)).echoed(),
+        middle=lambda wildcards: own_hoppers.middle(own_hopper(wildcards)),
     message:
         "plot_case/{wildcards.case}: The page of a hopper of the list cases"
     script:
