@@ -6,7 +6,7 @@ from pathlib import Path
 
 from hopper_cli import chart_options, design_options, march_options, ranges, sheet_options
 from hopper_cli.errors import UsageError
-from hopper_cli.outputs import FileError, checked
+from hopper_cli.outputs import require_writable
 
 # The extra of the distribution and its libraries that a file of this suffix needs.
 _LIBRARIES = {
@@ -27,8 +27,7 @@ def check(options: Namespace) -> None:
     """
     if options.command == "table":
         sheet_options.check(options)
-        if options.out.suffix.lower() in _LIBRARIES:
-            _require_libraries("--out", options.out.suffix.lower())
+        _require_libraries("--out", options.out.suffix.lower())
         return
     if options.command == "chart":
         chart_options.check(options)
@@ -69,10 +68,7 @@ def _check_files(options: Namespace) -> None:
     ):
         if path is None:
             continue
-        try:
-            checked(path, suffixes, overwrite=options.force)
-        except FileError as error:
-            raise UsageError(f"argument {option}: {error}") from None
+        require_writable(option, path, suffixes, overwrite=options.force)
         _require_libraries(option, path.suffix.lower())
 
 

@@ -5,8 +5,7 @@ import os
 from pathlib import Path
 
 from hopper_cli import values
-from hopper_cli.errors import UsageError
-from hopper_cli.outputs import FileError, checked
+from hopper_cli.outputs import require_writable
 
 _SUFFIXES = (".csv", ".xlsx", ".json", ".nc")
 
@@ -53,10 +52,7 @@ def check(options: argparse.Namespace) -> None:
     UsageError
         If there is one.
     """
-    try:
-        checked(options.out, _SUFFIXES, overwrite=options.force)
-    except FileError as error:
-        raise UsageError(f"argument --out: {error}") from None
+    require_writable("--out", options.out, _SUFFIXES, overwrite=options.force)
 
 
 def _cores(text: str) -> int:

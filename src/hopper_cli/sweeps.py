@@ -69,8 +69,9 @@ def _hoppers(inputs: list[dict[str, Any]]) -> Iterator[dict[str, Any]]:
     titles = tuple(inputs[0])
     cells = tuple({title: str(value) for title, value in row.items()} for row in inputs)
     listed = HopperList(titles, cells, dict(zip(titles, titles, strict=True)))
+    columns = Columns([])
     for number, row in enumerate(inputs):
-        yield row | sheets.row_answer(listed, number, Columns([]))
+        yield row | sheets.row_answer(listed, number, columns)
 
 
 def _designs(options: Namespace, inputs: list[dict[str, Any]]) -> Iterator[dict[str, Any]]:

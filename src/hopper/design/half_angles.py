@@ -120,7 +120,7 @@ def half_angles(material: Material, disturbances: Disturbances | None = None) ->
     velocity = _noted(notes, "velocity", lambda: _velocity(material))
     stable = _noted(notes, "stability", lambda: _stable(material, limit, disturbances))
     least, stability = stable or (None, None)
-    name: Limit = "classical" if _slips(material) else "velocity"
+    name: Limit = "classical" if material.slips else "velocity"
     return HalfAngles(
         classical,
         limit,
@@ -149,11 +149,7 @@ def flow_limit(material: Material) -> Quantity:
     ConvergenceError
         If it is not resolved.
     """
-    return _classical(material) if _slips(material) else _velocity(material)
-
-
-def _slips(material: Material) -> bool:
-    return material.geometry == "cone" and material.condition == MOHR_COULOMB
+    return _classical(material) if material.slips else _velocity(material)
 
 
 def _noted(notes: dict[Limit, str], name: Limit, find: Callable[[], _Found]) -> _Found | None:
@@ -165,7 +161,7 @@ def _noted(notes: dict[Limit, str], name: Limit, find: Callable[[], _Found]) -> 
 
 
 def _classical(material: Material) -> Quantity:
-    if not _slips(material):
+    if not material.slips:
         raise NoLimitError("known of Mohr-Coulomb cones only")
 
     def angle(delta: float) -> float:
@@ -229,7 +225,7 @@ def _velocity(material: Material) -> Quantity:
 
 def _physical(material: Material, half_angle: float, tau: float) -> bool:
     """Whether a hopper's member of that tau is the physical one; only cones have others."""
-    if not _slips(material):
+    if not material.slips:
         return True
     member = physical_member(material.hopper(half_angle), material.friction_angle)
     return member is not None and abs(member.tau / tau - 1) < _CLOSE

@@ -51,6 +51,11 @@ class Material:
         Hopper(self.geometry, self.delta, NARROWEST, self.condition)
         require_angle("friction_angle", self.friction_angle, zero_allowed=True)
 
+    @property
+    def slips(self) -> bool:
+        """Whether mass flow is slip along the wall, as in Mohr-Coulomb cones."""
+        return self.geometry == "cone" and self.condition == MOHR_COULOMB
+
     @checked
     def hopper(self, half_angle: Radians) -> Hopper:
         """Return the hopper of a half angle."""

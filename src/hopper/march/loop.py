@@ -4,7 +4,7 @@ Advanced is the deviation w = W - W0 from the radial field. It is continuous aro
 where walls join its legs; there its slope jumps, so every leg has its own polynomial.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -65,14 +65,13 @@ def make_loop(base: Base, n: int, legs: int) -> Loop:
         (at.n0, at.n1), (at.l0, at.l1), (at.cos_eta, -at.sin_eta), (at.d0, at.d1)
     ]  # fmt: skip
     constant, by_t = (np.stack([np.full((legs, n), row[i]) for row in rows]) for i in (0, 1))
-    zero = np.zeros((legs, n))
-    bare = Loop(
-        base, legs, points, state, derivative, operator, constant, by_t,
-        np.ones((2, legs, n)), (zero, zero),
-    )  # fmt: skip
-    numerator, radial = _terms(bare, zero, zero)
+    none = np.zeros((legs, n))
+    numerator, radial = _terms(constant, by_t, state, none, none)
     source = numerator / radial[0]
-    return replace(bare, radial=radial, balance=(source, numerator - radial[0] * source))
+    balance = source, numerator - radial[0] * source
+    return Loop(
+        base, legs, points, state, derivative, operator, constant, by_t, radial, balance
+    )  # fmt: skip
 
 
 def rate(loop: Loop, w: Array) -> tuple[Array, Array]:
@@ -95,25 +94,23 @@ def corner_defect(loop: Loop, w: Array) -> float:
 
 def _free_rate(loop: Loop, w: Array) -> tuple[Array, Array]:
     odd, even, slope = (w.ravel() @ loop.operator).reshape(3, *w.shape)
-    numerator, speed = _terms(loop, odd, even)
+    numerator, speed = _terms(loop.constant, loop.by_t, loop.state, odd, even)
     source, rounding = loop.balance
     return (numerator - speed[0] * (source + slope) - rounding) / speed[1], speed
 
 
-def _terms(loop: Loop, odd: Array, even: Array) -> tuple[Array, Array]:
-    """Return N and [A, D] where psi and log(1 / sigma) are off the radial field's by these."""
-    terms = loop.constant + loop.by_t * np.tan(loop.state.psi + odd)
-    return terms[0] + loop.state.light * np.exp(even) * terms[1], terms[2:]
+def _terms(
+    constant: Array, by_t: Array, state: BaseState, odd: Array, even: Array
+) -> tuple[Array, Array]:
+    """Return N and [A, D] where psi and log(1 / sigma) are ``odd`` and ``even`` off the state's."""
+    terms = constant + by_t * np.tan(state.psi + odd)
+    return terms[0] + state.light * np.exp(even) * terms[1], terms[2:]
 
 
 def linearization(loop: Loop) -> Array:
     """Return d w_tau / dw at w = 0, shape (m, m), m = legs n, legs one after the other."""
-    t, light, source, (a, d) = (
-        np.tan(loop.state.psi),
-        loop.state.light,
-        loop.balance[0],
-        loop.radial,
-    )
+    t, light = np.tan(loop.state.psi), loop.state.light
+    source, (a, d) = loop.balance[0], loop.radial
     by_odd = (1 + t**2) * (loop.by_t[0] + light * loop.by_t[1] - source * loop.by_t[2])
     by_even = light * (loop.constant[1] + loop.by_t[1] * t)
     factors = np.stack([by_odd, by_even, -a]) / d

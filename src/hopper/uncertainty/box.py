@@ -1,4 +1,4 @@
-"""BoxedHoppers whose numbers lie in ranges: a box."""
+"""Hoppers whose numbers lie in ranges: a box."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -46,7 +46,7 @@ class Range:
 
 @dataclass(frozen=True)
 class Box:
-    """BoxedHoppers of one geometry and yield condition; angles in radians.
+    """Hoppers of one geometry and yield condition; angles in radians.
 
     Points of the box have coordinates from 0 to 1, one for each of ``ranged``.
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 from math import nan, pi
 from typing import Any, TypeVar
 
@@ -20,7 +21,6 @@ from hopper.radial.solution import RadialSolution
 from hopper.stability.modes import Disturbances, LinearStability, linear_stability
 from hopper.uncertainty.box import Box
 from hopper.uncertainty.friction_limits import FrictionLimits
-from hopper.yield_conditions import MOHR_COULOMB
 
 _Found = TypeVar("_Found")
 # Relative errors of the governing mode, and of the others.
@@ -46,10 +46,10 @@ class BoxedHoppers:
 
     __repr__ = brief("box.geometry")
 
-    @property
+    @cached_property
     def slips(self) -> bool:
         """Whether mass flow is slip along the wall, as in Mohr-Coulomb cones."""
-        return self.box.geometry == "cone" and self.box.condition == MOHR_COULOMB
+        return self.box.hopper(self.box.middle)[0].slips
 
     @property
     def closed(self) -> bool:

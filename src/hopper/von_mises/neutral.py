@@ -135,8 +135,7 @@ def neutral_flow(half_angle: Radians, friction_angle: Radians) -> NeutralFlow | 
     while True:
         if high - low < _NARROW:
             try:
-                start = _flow(half_angle, friction_angle, low)
-                found = followed_up(governing(growth(start), start), friction_angle, low)
+                found = _followed_from(half_angle, friction_angle, low)
                 if found.point.delta < high:
                     return found
             except HopperError:
@@ -157,11 +156,16 @@ def _near(half_angle: float, friction_angle: float, guess: float) -> NeutralFlow
     if not AXIS_HYPERBOLIC + MARGIN < guess < TENSION - MARGIN:
         return None
     try:
-        start = _flow(half_angle, friction_angle, guess)
-        found = followed_up(governing(growth(start), start), friction_angle, guess)
+        found = _followed_from(half_angle, friction_angle, guess)
     except HopperError:
         return None
     return found if abs(found.point.delta - guess) < _REACH else None
+
+
+def _followed_from(half_angle: float, friction_angle: float, delta: float) -> NeutralFlow:
+    """Return the neutral flow that what governs at a delta leads to."""
+    start = _flow(half_angle, friction_angle, delta)
+    return followed_up(governing(growth(start), start), friction_angle, delta)
 
 
 def _flow(half_angle: float, friction_angle: float, delta: float) -> RadialSolution:
