@@ -56,17 +56,21 @@ def checked(function: _Function) -> _Function:
     checks = {name: _check_of(hint) for name, hint in hints.items()}
     # Values of the very class asked for need no more than that: it is most of them.
     in_order = tuple((name, _class_of(hints[name]), check) for name, check in checks.items())
+    most = len(in_order)
 
     @wraps(function)
     def call(*values: Any, **named: Any) -> Any:
-        # Too many arguments, or unknown ones, are left to the function's own complaint.
         given = [
             value if type(value) is kind else check(name, value)
             for (name, kind, check), value in zip(in_order, values, strict=False)
         ]
-        for name in named.keys() & checks.keys():
-            named[name] = checks[name](name, named[name])
-        return function(*given, *values[len(given) :], **named)
+        # Too many arguments, or unknown ones, are left to the function's own complaint.
+        if len(values) > most:
+            given += values[most:]
+        if named:
+            for name in named.keys() & checks.keys():
+                named[name] = checks[name](name, named[name])
+        return function(*given, **named)
 
     return cast(_Function, call)
 
@@ -139,6 +143,8 @@ def _function(name: str, value: Any) -> Any:
 
 
 def _whole_number(name: str, value: Any) -> int:
+    if type(value) is int and abs(value) <= _LARGEST_COUNT:
+        return value
     if not isinstance(value, int | np.integer) or isinstance(value, bool):
         raise InvalidParameterError(f"{name} = {shown(value)} is not a whole number: give one")
     if abs(index(value)) > _LARGEST_COUNT:

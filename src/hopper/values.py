@@ -69,7 +69,7 @@ def real_array(name: str, value: ArrayLike, remedy: str = "real numbers") -> Arr
         As :func:`number_array`, and if they are complex.
     """
     array = number_array(name, value, remedy)
-    if np.iscomplexobj(array):
+    if array.dtype.char == "D":
         raise InvalidParameterError(f"{name} is complex: give {remedy}")
     return array
 

@@ -191,6 +191,12 @@ def top_of(psi: Row) -> float:
 
 
 @checked
+def psi_series(psi: Row) -> Array:
+    """Return the coefficients of cos(x), cos(3 x), ... of psi, x an angle of :func:`top_of`."""
+    return _psi_samples(psi.size)[0] @ psi
+
+
+@checked
 def psi_row(size: int, angle: float) -> Array:
     """Return the row from psi at ``size`` points to its value at an angle of :func:`top_of`."""
     return np.cos(angle * (2 * np.arange(size) + 1)) @ _psi_samples(size)[0]

@@ -7,7 +7,7 @@ extremum psi_w determines a solution badly and tau does well: there tau is what 
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cache, lru_cache
 from math import degrees, exp, log
 from typing import Literal
 
@@ -17,7 +17,7 @@ from hopper.arguments import checked
 from hopper.brief import brief
 from hopper.errors import ConvergenceError
 from hopper.problem import Hopper
-from hopper.radial.collocation import Closure, Member, newton
+from hopper.radial.collocation import Closure, Member, newton, predicted
 from hopper.radial.critical_point import cut, limiting_solution
 from hopper.radial.family import WALL_MARGIN, family_from, neighbour, smooth_wall_member
 from hopper.radial.grid import mapped_grid
@@ -158,9 +158,11 @@ def _extremum(below: Member, above: Member, rising: bool) -> Limit | None:
     def slope(log_tau: float) -> float:
         return neighbour(start, Closure("tau", exp(log_tau))).slope
 
+    @cache
     def coarse(log_tau: float) -> float:
         closure = Closure("tau", exp(log_tau))
-        member = newton(start.hopper, start.grid, closure, start.u, _LAST_STEP)
+        guess = predicted(start, closure).u
+        member = newton(start.hopper, start.grid, closure, guess, _LAST_STEP)
         return member.slope if member else slope(log_tau)
 
     ends, sign = (log(below.tau), log(above.tau)), 1 if rising else -1
