@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+import scipy
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
-from scipy.interpolate import RectBivariateSpline
 
 from hopper_cli.drawing import Array
 
@@ -64,7 +64,9 @@ def draw_flow_factors(
     axis.plot(angle, top, color="black", linewidth=1.6)
     share = np.linspace(0, 1, factors.shape[1])
     kx, ky = min(3, angle.size - 1), min(3, share.size - 1)
-    spline = RectBivariateSpline(angle, share, np.log(factors[known]), kx=kx, ky=ky)
+    spline = scipy.interpolate.RectBivariateSpline(
+        angle, share, np.log(factors[known]), kx=kx, ky=ky
+    )
     angle_between, share_between = _between(angle), _between(share)
     lines = axis.contour(
         np.broadcast_to(angle_between[:, None], (angle_between.size, share_between.size)),

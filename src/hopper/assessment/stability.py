@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from math import exp, pi
 
 import numpy as np
-from scipy.optimize import minimize_scalar
+import scipy
 
 from hopper.arguments import checked
 from hopper.arrays import Complex
@@ -230,7 +230,7 @@ def _time_of_largest(basis: ModalBasis, rate: float, period: float) -> float:
     times = np.linspace(0, _TRIPS * period, _TRIPS * _SAMPLES + 1)
     peak = times[np.argmax(propagator_norm([basis], times) * np.exp(-rate * times))]
     around = max(0.0, peak - times[1]), min(peak + times[1], times[-1])
-    found = minimize_scalar(
+    found = scipy.optimize.minimize_scalar(
         lambda elapsed: -_scaled_norm(basis, elapsed, rate),
         bounds=around,
         method="bounded",

@@ -12,7 +12,6 @@ from math import nan, pi
 from typing import TypeVar
 
 import numpy as np
-from scipy.optimize import brentq
 
 from hopper.arguments import Radians, RealRow, checked
 from hopper.arrays import Array
@@ -35,6 +34,7 @@ from hopper.radial.mass_flow import (
 )
 from hopper.radial.members import physical_member
 from hopper.radial.solution import solution_of, solve_radial
+from hopper.roots import root_between
 from hopper.stability.modes import linear_stability
 
 _Found = TypeVar("_Found")
@@ -251,7 +251,7 @@ def _stable(hopper: Hopper, limit: Quantity) -> tuple[Quantity | None, Quantity 
         return linear_stability(solve_radial(hopper, phi)).abscissa
 
     def root(low: float, high: float) -> Quantity:
-        found = brentq(abscissa, low, high, xtol=_ROOT)
+        found = root_between(abscissa, low, high, xtol=_ROOT)
         _, here = abscissa_with_error(solve_radial(hopper, found))
         slope = abs(abscissa(found - _STEP) - here.value) / _STEP
         return Quantity(found, (abs(here.value) + here.error) / slope + _ROOT)

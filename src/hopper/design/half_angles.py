@@ -9,7 +9,6 @@ from math import degrees, isnan, nan, pi, radians
 from typing import Literal, TypeVar, get_args
 
 import numpy as np
-from scipy.optimize import brentq
 
 from hopper.arguments import checked
 from hopper.arrays import Array
@@ -30,6 +29,7 @@ from hopper.radial.flow_curve import WIDEST, flow_curve
 from hopper.radial.friction_limit import friction_limit
 from hopper.radial.mass_flow import mass_flow_half_angle
 from hopper.radial.members import physical_member
+from hopper.roots import root_between
 from hopper.stability.modes import Disturbances, linear_stability
 from hopper.yield_conditions import MOHR_COULOMB
 
@@ -186,7 +186,7 @@ def _limit(material: Material) -> Quantity:
             return -pi / 2  # not even for a smooth wall
         return found.friction_angle - material.friction_angle
 
-    root = brentq(excess, *_bracket(material, excess), xtol=_ROOT)
+    root = root_between(excess, *_bracket(material, excess), xtol=_ROOT)
     try:
         here, before = (friction_limit(material.hopper(angle)) for angle in (root, root - _STEP))
     except NoRadialSolutionError:  # a smooth wall, of which the limit is where the family ends
@@ -253,7 +253,7 @@ def _stable(
         return linear_stability(material.solution(half_angle), disturbances).abscissa
 
     def root(low: float, high: float) -> Quantity:
-        found = brentq(abscissa, low, high, xtol=_ROOT)
+        found = root_between(abscissa, low, high, xtol=_ROOT)
         _, here = abscissa_with_error(material.solution(found), disturbances)
         slope = abs(abscissa(found - _STEP) - here.value) / _STEP
         return Quantity(found, (abs(here.value) + here.error) / slope + _ROOT)

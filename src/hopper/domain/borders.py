@@ -11,7 +11,6 @@ from math import pi
 from typing import Self
 
 import numpy as np
-from scipy.optimize import brentq
 
 from hopper.arguments import Positive, Radians, RealRow, checked
 from hopper.arrays import Array, Mask
@@ -24,6 +23,7 @@ from hopper.radial.collocation import Closure, Member, largest_psi
 from hopper.radial.family import family, neighbour, smooth_wall_member
 from hopper.radial.friction_limit import friction_limit
 from hopper.radial.members import member_with_tau
+from hopper.roots import root_between
 from hopper.stability.tilted import require_mohr_coulomb, tangency_angle
 
 # How often an interval between borders is halved at most.
@@ -69,7 +69,7 @@ def _friction_between(below: Member, above: Member, psi: float) -> float | None:
 
     # psi at the wall is at most the largest psi: no need to look beyond the level.
     high = min(high, psi) if unknown == "psi_wall" else high
-    reached = neighbour(below, Closure(unknown, brentq(excess, low, high, xtol=1e-13, rtol=1e-13)))
+    reached = neighbour(below, Closure(unknown, root_between(excess, low, high, xtol=1e-13)))
     if reached.tau <= 0 or (unknown == "tau" and reached.psi_wall_by_tau <= 0):
         return None
     return law.friction_angle(delta, reached.psi_wall)

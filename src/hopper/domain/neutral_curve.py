@@ -12,7 +12,6 @@ from math import exp, log, prod
 from typing import Literal, Self, get_args
 
 import numpy as np
-from scipy.optimize import brentq
 
 from hopper.arguments import Positive, Radians, RealLike, checked
 from hopper.arrays import Array
@@ -22,6 +21,7 @@ from hopper.domain.neutral_points import neutral_delta
 from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.problem import Geometry
 from hopper.radial.collocation import Member
+from hopper.roots import root_between
 from hopper.stability.collocation import Parity
 from hopper.stability.modes import Disturbances, Governor, LinearStability
 
@@ -199,7 +199,7 @@ def _at_delta(hoppers: Hoppers, delta: float, below: _Point, above: float) -> _P
         return result.abscissa if isinstance(result, LinearStability) else np.inf
 
     try:
-        phi = brentq(growth, below.friction_angle, above, xtol=ROOT_TOLERANCE)
+        phi = root_between(growth, below.friction_angle, above, xtol=ROOT_TOLERANCE)
     except ValueError:  # no change of sign
         raise ConvergenceError(
             f"neutral point lost at delta = {np.degrees(delta):.6g} deg: give a smaller step"

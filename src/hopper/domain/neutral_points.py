@@ -8,7 +8,6 @@ from math import degrees, radians
 from typing import Literal
 
 import numpy as np
-from scipy.optimize import brentq
 
 from hopper.arguments import Positive, Radians, checked
 from hopper.brief import brief
@@ -21,6 +20,7 @@ from hopper.errors import (
 )
 from hopper.problem import Geometry
 from hopper.radial.friction_limit import End, friction_limit
+from hopper.roots import root_between
 from hopper.stability.modes import Disturbances, LinearStability
 from hopper.values import require_angle
 
@@ -250,7 +250,7 @@ def _limit_between(
     try:
         if friction_limit(hoppers.hopper(inside)).end == "wall" and outside <= phi:
             return phi, "wall"
-        delta = float(brentq(excess, inside, outside, xtol=ROOT_TOLERANCE))
+        delta = root_between(excess, inside, outside, xtol=ROOT_TOLERANCE)
         return delta, friction_limit(hoppers.hopper(delta)).end
     except (ConvergenceError, NoRadialSolutionError, ValueError):
         return None, None
@@ -264,7 +264,7 @@ def _without_stress(hoppers: Hoppers, phi: float, inside: float, outside: float)
         return hoppers.last.tau if hoppers.last else np.nan
 
     try:
-        return float(brentq(tau, inside, outside, xtol=ROOT_TOLERANCE))
+        return root_between(tau, inside, outside, xtol=ROOT_TOLERANCE)
     except ValueError:
         return None
 
@@ -300,4 +300,4 @@ def _between(hoppers: Hoppers, phi: float, before: _Sample, after: _Sample) -> f
             return result.abscissa
         raise ConvergenceError(f"neutral point not resolved near delta = {degrees(delta):.6g} deg")
 
-    return float(brentq(growth, before.delta, after.delta, xtol=ROOT_TOLERANCE))
+    return root_between(growth, before.delta, after.delta, xtol=ROOT_TOLERANCE)

@@ -13,7 +13,7 @@ References
 """
 
 import numpy as np
-from scipy.linalg import null_space
+import scipy
 
 from hopper.arguments import Fraction, checked
 from hopper.arrays import Array, Complex
@@ -72,7 +72,7 @@ def _von_mises_symbol(law: YieldCondition, s: float, psi: float, xr: float, xt: 
     state = np.array(stress(law, s, 1.0, psi))
     deviator = (state - [1, 1, 1, 0]) / s
     # Traceless, and along the yield surface to first order.
-    along = null_space(np.array([[1, 1, 1, 0], deviator * [1, 1, 1, 2]]))
+    along = scipy.linalg.null_space(np.array([[1, 1, 1, 0], deviator * [1, 1, 1, 2]]))
     rr, tt, _, rt = np.column_stack([state, s * along])
     symbol = np.zeros((6, 6))
     symbol[0, :3] = xr * rr + xt * rt

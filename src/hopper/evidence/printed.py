@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from math import acos, asin, pi, sqrt
 
 import numpy as np
-from scipy.optimize import brentq
 
 from hopper.arguments import Fraction, Row, checked
 from hopper.arrays import Array
@@ -16,6 +15,7 @@ from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 from hopper.evidence import motion
 from hopper.radial.solution import RadialSolution
+from hopper.roots import root_between
 from hopper.stability.tilted import require_mohr_coulomb
 from hopper.yield_conditions import MOHR_COULOMB, YieldCondition
 
@@ -48,7 +48,7 @@ def first_singular_angle(law: YieldCondition, s: Fraction) -> float:
     grid = np.linspace(0, pi / 2, 91)
     signs = np.sign([determinant(psi) for psi in grid])
     first = int(np.flatnonzero(signs[1:] != signs[0])[0])
-    return float(brentq(determinant, grid[first], grid[first + 1], xtol=1e-15))
+    return root_between(determinant, grid[first], grid[first + 1], xtol=1e-15)
 
 
 @checked

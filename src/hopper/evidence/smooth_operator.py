@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from math import degrees, pi
 
 import numpy as np
-from scipy.optimize import brentq, linear_sum_assignment
-from scipy.special import hyp1f1
+import scipy
 
 from hopper.arguments import Radians, Row, checked
 from hopper.arrays import Array, Complex
 from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 from hopper.problem import Geometry, Hopper
+from hopper.roots import root_between
 from hopper.spectral import chebyshev
 from hopper.stability import smooth_wall
 from hopper.stability.tilted import require_mohr_coulomb
@@ -83,7 +83,7 @@ def check_formula(hopper: Hopper, count: int, m: int) -> FormulaCheck:
         formula = smooth_wall.cone_eigenvalues(hopper.delta, wavenumbers)
     found = np.linalg.eigvals(operator_matrix(hopper, m)).astype(complex)
     distance = np.abs(formula[:, None] - found) / np.abs(formula)[:, None]
-    rows, columns = linear_sum_assignment(np.minimum(distance, 1.0))
+    rows, columns = scipy.optimize.linear_sum_assignment(np.minimum(distance, 1.0))
     rest = np.delete(found, columns)
     return FormulaCheck(
         float(distance[rows, columns].max()), rest[np.abs(rest) <= np.abs(formula).max()]
@@ -100,7 +100,7 @@ def neutral_delta(geometry: Geometry, half_angle: Radians) -> float:
     def growth(delta: float) -> float:
         return float(_first_pair(geometry, delta, half_angle).real.max())
 
-    return float(brentq(growth, 0.1, 1.2, xtol=1e-14))
+    return root_between(growth, 0.1, 1.2, xtol=1e-14)
 
 
 @checked
@@ -117,7 +117,7 @@ def crossing_delta(half_angle: Radians) -> float:
         raise InvalidParameterError(
             f"half_angle = {degrees(half_angle):.6g} deg is out of range: there is no crossing"
         )
-    return float(brentq(gap, 0.1, 1.2, xtol=1e-14))
+    return root_between(gap, 0.1, 1.2, xtol=1e-14)
 
 
 def _first_pair(geometry: Geometry, delta: float, half_angle: float) -> Complex:
@@ -167,7 +167,7 @@ def kummer_residual(mu: float, half_angle: Radians, m: int) -> float:
     even, odd = (
         chebyshev.half_differentiation_matrix(m, parity) / half_angle for parity in ("even", "odd")
     )
-    omega = theta * hyp1f1(1 - 1.5 * mu, 2, theta**2 / 6)
+    omega = theta * scipy.special.hyp1f1(1 - 1.5 * mu, 2, theta**2 / 6)
     slope = odd @ omega
     terms = np.array(
         [

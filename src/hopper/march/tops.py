@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from math import degrees, pi, tan
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy
 
 from hopper.arguments import RealRow, checked
 from hopper.arrays import Array
@@ -130,7 +130,10 @@ def profile(theta: RealRow, sigma: RealRow, psi: RealRow) -> Top:
         If sigma is not positive.
     """
     theta, sigma, psi, half = _whole_profile(np.asarray(theta), np.asarray(sigma), np.asarray(psi))
-    splines = CubicSpline(theta, np.log(sigma)), CubicSpline(theta, psi)
+    splines = (
+        scipy.interpolate.CubicSpline(theta, np.log(sigma)),
+        scipy.interpolate.CubicSpline(theta, psi),
+    )
     symmetric = half or bool(
         np.allclose(theta, -theta[::-1], rtol=0, atol=_ROUNDING)
         and np.allclose(sigma, sigma[::-1], rtol=_ROUNDING, atol=0)

@@ -226,7 +226,7 @@ def _newton_step(hopper: Hopper, grid: Grid, closure: Closure, u: Array) -> tupl
     """Return the Newton correction, and the derivative of u by the closure's value."""
     residual, jacobian = closed_system(hopper, grid, closure.unknown, u)
     residual[-1] = u[CLOSED[closure.unknown]] - closure.value
-    right = np.zeros((u.size, 2), order="F")
+    right = np.zeros((u.size, 2))
     right[:, 0] = -residual
     right[-1, 1] = 1.0
     solved = solved_by(jacobian, right)

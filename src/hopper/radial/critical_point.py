@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from math import log
 
 import numpy as np
-from scipy.integrate import solve_ivp
+import scipy
 
 from hopper.arguments import checked
 from hopper.arrays import Array
@@ -168,7 +168,9 @@ def _psi_wall(hopper: Hopper, point: CriticalPoint) -> float:
 
     interval = (point.theta + _OFFSET, hopper.half_angle)
     with np.errstate(all="ignore"):  # a step too far is rejected
-        reached = solve_ivp(slope, interval, left, "DOP853", rtol=_RELATIVE, atol=_ABSOLUTE)
+        reached = scipy.integrate.solve_ivp(
+            slope, interval, left, "DOP853", rtol=_RELATIVE, atol=_ABSOLUTE
+        )
     if not reached.success:
         raise ConvergenceError(f"limiting solution not resolved: {reached.message}")
     return float(reached.y[1, -1])

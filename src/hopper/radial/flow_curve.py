@@ -12,7 +12,6 @@ from functools import lru_cache
 from math import degrees, pi, radians
 
 import numpy as np
-from scipy.optimize import brentq
 
 from hopper.arguments import checked
 from hopper.arrays import Array
@@ -32,6 +31,7 @@ from hopper.radial.steps import (
     size_of,
     solved_by,
 )
+from hopper.roots import root_between
 
 # The half angle up to which fields are followed, radians.
 WIDEST = radians(89)
@@ -84,7 +84,7 @@ class FlowCurve:
         def at(level: float) -> float:
             if level >= pi / 4:
                 return self.top
-            return float(brentq(lambda x: float(np.cos(x * odd) @ series) - level, 0, self.top))
+            return root_between(lambda x: float(np.cos(x * odd) @ series) - level, 0, self.top)
 
         # Close to the top the error goes as the square root: the difference tells.
         levels = (psi_wall, psi_wall - error, psi_wall + error)
@@ -199,17 +199,18 @@ def _refined(member: Member) -> Member:
 
 def _rounding(member: Member) -> float:
     jacobian = _system(member.hopper, member.grid, member.u)[1]
-    moved = solved_by(jacobian, np.asfortranarray(rounding_of_rows(jacobian, member.u)))
+    moved = solved_by(jacobian, rounding_of_rows(jacobian, member.u))
     return float(rounding_of_unknowns(moved[None], member.u[None])[0])
 
 
 def _on(grid: Grid, start: Member) -> Member | None:
     """Solve on one grid, as :func:`hopper.radial.collocation.newton`."""
     hopper, u, first = start.hopper, start.on(grid), 0.0
-    right = np.zeros((u.size, 2), order="F")
+    right = np.zeros((u.size, 2))
+    right[-1, 1] = 1.0
     for iteration in range(_NEWTON_STEPS):
         residual, jacobian = _system(hopper, grid, u)
-        right[:, 0], right[:-1, 1], right[-1, 1] = -residual, 0.0, 1.0
+        right[:, 0] = -residual
         step, tangent = solved_by(jacobian, right).T
         size = size_of(step, u)
         if not np.isfinite(size):
@@ -220,7 +221,6 @@ def _on(grid: Grid, start: Member) -> Member | None:
         first = first if iteration else size
         if size < _LAST_STEP:
             return Member(hopper, grid, Closure("tau", float(u[-1])), u, tangent, first)
-        right = np.zeros_like(right)
     return None
 
 

@@ -11,8 +11,6 @@ from functools import cache, lru_cache
 from math import degrees, exp, log
 from typing import Literal
 
-from scipy.optimize import brentq
-
 from hopper.arguments import checked
 from hopper.brief import brief
 from hopper.errors import ConvergenceError
@@ -23,6 +21,7 @@ from hopper.radial.family import WALL_MARGIN, family_from, neighbour, smooth_wal
 from hopper.radial.grid import mapped_grid
 from hopper.radial.mass_flow import limiting_wall_angle
 from hopper.radial.refinement import fitted
+from hopper.roots import root_between
 from hopper.yield_conditions import MOHR_COULOMB
 
 End = Literal["fold", "wall", "interior", "axis"]
@@ -168,7 +167,7 @@ def _extremum(below: Member, above: Member, rising: bool) -> Limit | None:
     ends, sign = (log(below.tau), log(above.tau)), 1 if rising else -1
     if not sign * coarse(ends[0]) > 0 > sign * coarse(ends[1]):
         return None
-    root = brentq(coarse, *ends, xtol=_COARSE_ROOT)
+    root = root_between(coarse, *ends, xtol=_COARSE_ROOT)
     for half in _BRACKETS:
         # One secant step on resolved members: psi_w is stationary, so its error is of higher order.
         left, right = slope(root - half), slope(root + half)

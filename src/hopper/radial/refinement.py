@@ -7,8 +7,6 @@ nears its singular angle at the wall, or to a kink inside.
 
 from dataclasses import replace
 
-import numpy as np
-
 from hopper.arguments import checked
 from hopper.errors import ConvergenceError, not_resolved_because
 from hopper.problem import Hopper
@@ -77,7 +75,7 @@ def rounding(member: Member) -> float:
     """Return what rounding makes of u: that of the closure and of the equations, magnified."""
     hopper, u = member.hopper, member.u
     _, jacobian = closed_system(hopper, member.grid, member.closure.unknown, u)
-    moved = solved_by(jacobian, np.asfortranarray(rounding_of_rows(jacobian, u)))
+    moved = solved_by(jacobian, rounding_of_rows(jacobian, u))
     return float(rounding_of_unknowns(moved[None], u[None])[0]) + rounding_of_closure(member)
 
 

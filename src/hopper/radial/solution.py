@@ -6,7 +6,6 @@ from math import degrees, tan
 from typing import Literal, get_args
 
 import numpy as np
-from scipy.optimize import brentq
 
 from hopper.arguments import Positive, Radians, RealLike, checked
 from hopper.arrays import Array
@@ -19,17 +18,20 @@ from hopper.errors import (
     not_resolved_because,
 )
 from hopper.problem import Hopper, as_angles
-from hopper.radial.collocation import Member
+from hopper.radial.collocation import Member, top_of
 from hopper.radial.equations import slopes
 from hopper.radial.fields import stacked_fields
 from hopper.radial.friction_limit import friction_limit
 from hopper.radial.grid import Grid
 from hopper.radial.members import member_with_tau, members_with_wall_angle, physical_member
 from hopper.radial.steps import normal_weight
+from hopper.roots import root_between
 from hopper.values import require_angle
 
 Branch = Literal["physical", "second", "third"]
 _BRANCHES: tuple[Branch, ...] = get_args(Branch)
+# Part of an angle by which others are beside it.
+_BESIDE = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,17 +148,17 @@ class RadialSolution:
 
         The slope of psi is that of the equations: its error is as small as that of the fields.
         """
-        theta = np.linspace(0, self.hopper.half_angle, 8 * self.theta.size + 1)
-        peak = int(np.argmax(self.psi_at(theta)))
-
-        def slope(angle: float) -> float:
-            return float(self.fields(angle)[3][0])
-
-        low, high = theta[max(peak - 1, 0)], theta[min(peak + 1, theta.size - 1)]
-        if slope(low) > 0 > slope(high):
-            angle = brentq(slope, low, high, xtol=1e-13)
-            return float(angle), float(self.psi_at(angle)[0])
-        return float(theta[peak]), float(self.psi_at(theta[peak])[0])
+        top, wall = top_of(self.psi), self.hopper.half_angle
+        if not top:
+            return wall, self.psi_wall
+        theta = wall * float(self.member.grid.map.forward(np.cos([top]))[0][0])
+        # The series knows its slope less well than the equations do: a Newton step by theirs.
+        beside = theta * np.array([1 - _BESIDE, 1.0, 1 + _BESIDE])
+        beside[2] = min(beside[2], wall)
+        left, here, right = self.fields(beside)[3]
+        if left > right:
+            theta = min(theta + np.ptp(beside) * here / (left - right), wall)
+        return float(theta), float(self.psi_at(theta)[0])
 
     @checked
     def first_angle_with(self, psi: float) -> float | None:
@@ -164,7 +166,7 @@ class RadialSolution:
         theta, largest = self.psi_maximum()
         if not 0 <= psi <= largest:
             return None
-        return float(brentq(lambda angle: float(self.psi_at(angle)[0]) - psi, 0.0, theta))
+        return root_between(lambda angle: float(self.psi_at(angle)[0]) - psi, 0.0, theta)
 
     def _inside(self, theta: RealLike) -> Array:
         theta = as_angles("theta", theta)

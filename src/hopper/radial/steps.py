@@ -10,7 +10,6 @@ from functools import lru_cache
 from typing import Literal
 
 import numpy as np
-from scipy.linalg.lapack import dgesv
 
 from hopper.arrays import Array
 from hopper.problem import Hopper
@@ -129,8 +128,10 @@ def closed_system(hopper: Hopper, grid: Grid, unknown: Unknown, u: Array) -> tup
 
 def solved_by(jacobian: Array, right: Array) -> Array:
     """Return the solutions for the columns of ``right``; nan where there are none."""
-    _, _, solved, info = dgesv(jacobian, right, overwrite_b=True)
-    return np.full_like(right, np.nan) if info else solved
+    try:
+        return np.linalg.solve(jacobian, right).astype(float, copy=False)
+    except np.linalg.LinAlgError:
+        return np.full_like(right, np.nan)
 
 
 def size_of(step: Array, u: Array) -> float:

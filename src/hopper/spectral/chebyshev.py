@@ -17,10 +17,9 @@ References
 """
 
 from functools import lru_cache
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
-from scipy.fft import dct
 
 from hopper.arguments import RealLike, RealRow, checked
 from hopper.arrays import Array
@@ -116,9 +115,16 @@ def clenshaw_curtis_weights(n: int) -> Array:
     even = np.arange(0, n, 2)
     moments = np.zeros(n)
     moments[::2] = 2.0 / (1.0 - even**2)
-    weights = dct(moments, type=1) / (n - 1)
+    weights = _cosine_transform(moments) / (n - 1)
     weights[[0, -1]] /= 2
     return _frozen(weights)
+
+
+def _cosine_transform(values: Array) -> Array:
+    """Return the discrete cosine transform of the first kind along the first axis."""
+    mirrored = np.concatenate([values, values[-2:0:-1]])
+    found: Any = np.fft.fft(mirrored, axis=0)[: len(values)]
+    return found if np.iscomplexobj(values) else found.real.copy()
 
 
 def _barycentric_weights(n: int) -> Array:
@@ -161,7 +167,7 @@ def coefficients(values: _Values) -> Array:
     """
     _require_rows(values, 2)
     n = len(values)
-    result: Array = dct(values[::-1], type=1, axis=0) / (n - 1)
+    result = _cosine_transform(values[::-1]) / (n - 1)
     result[[0, -1]] /= 2
     return result
 

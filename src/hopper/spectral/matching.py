@@ -3,8 +3,8 @@
 from typing import Literal
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import linear_sum_assignment
 
 from hopper.arguments import ComplexRow, checked
 from hopper.arrays import Array, Complex, Mask
@@ -45,7 +45,7 @@ def relative_changes(fine: ComplexRow, coarse: ComplexRow, matching: Matching) -
         rows = columns = np.arange(min(fine.size, coarse.size))
     else:
         # Distances beyond 1 count alike: eigenvalues without partner must not pull at others.
-        rows, columns = linear_sum_assignment(np.minimum(distance, 1.0))
+        rows, columns = scipy.optimize.linear_sum_assignment(np.minimum(distance, 1.0))
     change[rows] = distance[rows, columns]
     return change
 
@@ -101,7 +101,7 @@ def match_kept(kept: ComplexRow, values: ComplexRow) -> NDArray[np.intp]:
         If one of them is further away than rounding allows.
     """
     distance = _relative_distances(kept, values)
-    rows, columns = linear_sum_assignment(np.minimum(distance, 1.0))
+    rows, columns = scipy.optimize.linear_sum_assignment(np.minimum(distance, 1.0))
     missing = int(np.sum(distance[rows, columns] > _SAME))
     if missing or kept.size > values.size:
         raise InvalidParameterError(

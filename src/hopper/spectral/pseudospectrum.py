@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.linalg import eig
 
 from hopper.arguments import Fraction, RealLike, checked
 from hopper.arrays import Array, Complex
@@ -194,7 +194,7 @@ def eigenvalue_condition_numbers(form: SchurForm) -> tuple[Complex, Array]:
     InvalidParameterError
         If an eigenvalue is outside the range of numbers.
     """
-    result: Any = eig(form.triangle, left=True, right=True)  # the stubs miscount
+    result: Any = scipy.linalg.eig(form.triangle, left=True, right=True)  # the stubs miscount
     values, left, right = result
     with np.errstate(divide="ignore"):
         condition = 1 / np.abs(np.einsum("ij,ij->j", left.conj(), right))

@@ -20,12 +20,12 @@ from collections.abc import Callable
 from math import inf, isfinite, nan
 
 import numpy as np
-from scipy.linalg import eigvals
-from scipy.optimize import brentq
+import scipy
 
 from hopper.arguments import AnyFloat, checked
 from hopper.arrays import Array, Numbers
 from hopper.errors import ConvergenceError, InvalidParameterError
+from hopper.roots import root_between
 from hopper.spectral.lanczos import unit_sigma_min
 from hopper.spectral.pseudospectrum import FAR
 from hopper.spectral.scaling import represented, times_power
@@ -65,7 +65,7 @@ def _circle_midpoints(form: SchurForm, z: complex, level: float) -> Numbers:
     """
     t, identity = form.triangle, np.eye(form.size)
     radius = abs(z)
-    above, below = eigvals(
+    above, below = scipy.linalg.eigvals(
         np.block([[t, level * identity], [0 * identity, radius * identity]]),
         np.block([[radius * identity, 0 * identity], [level * identity, t.conj().T]]),
         homogeneous_eigvals=True,
@@ -104,7 +104,8 @@ def _criss_cross(
             return _least(form, np.array([z + r * direction]))[0] - epsilon
 
         # An eigenvalue is inside, whatever rounding says.
-        step = brentq(excess, 0.0, far, xtol=EPS * (form.norm + far)) if excess(0.0) < 0 else 0.0
+        rounding = EPS * (form.norm + far)
+        step = root_between(excess, 0.0, far, xtol=rounding) if excess(0.0) < 0 else 0.0
         z = inner + direction * step
         previous, reached = reached, size(z)
         sigma, inner = _least(form, across(z))

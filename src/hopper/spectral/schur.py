@@ -7,8 +7,8 @@ all of them.
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.linalg import rsf2csf, schur
 
 from hopper.arguments import RealLike, checked
 from hopper.arrays import Array, Complex, Numbers
@@ -116,7 +116,9 @@ def schur_form(matrix: ArrayLike, weight: RealLike | None = None) -> SchurForm:
         exponent += exponent_of(a)
         a = times_power(a, -exponent_of(a))
     try:
-        triangle = np.ascontiguousarray(schur(a, "complex" if np.iscomplexobj(a) else "real")[0])
+        triangle = np.ascontiguousarray(
+            scipy.linalg.schur(a, "complex" if np.iscomplexobj(a) else "real")[0]
+        )
     except np.linalg.LinAlgError as error:
         raise ConvergenceError(f"no Schur form of the matrix found: {error}") from None
     flipped = np.ascontiguousarray(triangle.conj().T[::-1, ::-1])
@@ -168,7 +170,7 @@ def _panels(triangle: Numbers) -> tuple[Panel, ...]:
     while start < n:
         stop = min(start + _BLOCK, n)
         stop += stop < n and triangle[stop, stop - 1] != 0  # keep a 2 x 2 block whole
-        block, basis = rsf2csf(triangle[start:stop, start:stop], np.eye(stop - start))
+        block, basis = scipy.linalg.rsf2csf(triangle[start:stop, start:stop], np.eye(stop - start))
         block, basis = (np.ascontiguousarray(part, dtype=complex) for part in (block, basis))
         panels.append(Panel(start, stop, block, basis, triangle[start:stop, stop:]))
         start = stop

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from math import inf
 
 import numpy as np
-from scipy.linalg import block_diag
+import scipy
 
 from hopper.arguments import RealLike, checked
 from hopper.arrays import Array, Complex
@@ -59,7 +59,7 @@ def kept_form(bases: Sequence[ModalBasis]) -> SchurForm:
         If no basis is given.
     """
     require_modes(bases)
-    return schur_form(block_diag(*[modal_matrix(basis) for basis in bases]))
+    return schur_form(scipy.linalg.block_diag(*[modal_matrix(basis) for basis in bases]))
 
 
 @checked

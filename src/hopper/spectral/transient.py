@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from math import ceil, inf, pi
 
 import numpy as np
-from scipy.linalg import eig, qr, solve_triangular
+import scipy
 
 from hopper.arguments import RealLike, checked
 from hopper.arrays import Array, Complex
@@ -84,7 +84,7 @@ def basis_of(matrix: Array, weight: Array, kept: Complex) -> ModalBasis:
     exponent = exponent_of(square("matrix", matrix))
     root = weight_roots(weight, len(matrix))
     try:
-        scaled, vectors = eig(times_power(matrix, -exponent), check_finite=False)
+        scaled, vectors = scipy.linalg.eig(times_power(matrix, -exponent), check_finite=False)
     except np.linalg.LinAlgError as error:
         raise ConvergenceError(f"no eigenvalues of the matrix found: {error}") from None
     values = represented("eigenvalues", scaled, exponent)
@@ -99,7 +99,9 @@ def basis_of(matrix: Array, weight: Array, kept: Complex) -> ModalBasis:
     weighted = weighted / np.linalg.norm(weighted, axis=0)
     columns = np.sqrt(2) * weighted[:, upper]
     pairs = np.stack([columns.real, columns.imag], axis=2).reshape(root.size, -1)
-    (factor,) = qr(np.hstack([weighted[:, real].real, pairs]), mode="r", check_finite=False)
+    (factor,) = scipy.linalg.qr(
+        np.hstack([weighted[:, real].real, pairs]), mode="r", check_finite=False
+    )
     factor = factor[: kept.size, : kept.size]
     singular = np.linalg.svd(factor, compute_uv=False)
     if not singular[-1] > EPS * singular[0]:
@@ -127,7 +129,9 @@ def modal_matrix(basis: ModalBasis) -> Array:
     diagonal[index, index + 1] = values[real::2].imag
     diagonal[index + 1, index] = -values[real::2].imag
     product = basis.factor @ diagonal
-    entries = solve_triangular(basis.factor, product.T, trans="T", check_finite=False).T
+    entries = scipy.linalg.solve_triangular(
+        basis.factor, product.T, trans="T", check_finite=False
+    ).T
     return represented("the matrix of the modes", entries, exponent)
 
 
@@ -208,7 +212,7 @@ def _relative_norms(basis: ModalBasis, times: Array) -> Iterator[float]:
     values, size = basis.eigenvalues - basis.abscissa, basis.size
     real = int(np.sum(values.imag == 0))
     first = values[real::2]
-    inverse = solve_triangular(basis.factor, np.eye(size), check_finite=False)
+    inverse = scipy.linalg.solve_triangular(basis.factor, np.eye(size), check_finite=False)
     for time in times:
         # exp(time (Lambda - alpha)) in the real basis: scaling, and a rotation for each pair.
         grown = np.empty_like(inverse)

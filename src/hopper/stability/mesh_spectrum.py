@@ -7,8 +7,8 @@ computed: the same spectrum at a quarter of the work, each eigenvalue with its p
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.linalg import eig
 
 from hopper.arguments import checked
 from hopper.arrays import Array, Complex
@@ -60,7 +60,7 @@ def mesh_spectrum(solution: RadialSolution, n: int) -> MeshSpectrum:
         raise InvalidParameterError(f"n = {n} nodes are too few to filter: use {_LEAST_NODES}")
     values, tails = [], []
     for half in HALVES:
-        value, vectors = eig(half_matrix(solution, n // 2, half), check_finite=False)
+        value, vectors = scipy.linalg.eig(half_matrix(solution, n // 2, half), check_finite=False)
         values.append(value)
         tails.append(_tails(vectors, half))
     halves = np.repeat(np.arange(2, dtype=np.int8), n - 1)

@@ -14,14 +14,14 @@ from math import asin, cos, pi, sqrt
 from typing import Literal
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import brentq
-from scipy.special import hyp1f1, jn_zeros, lpmv
 
 from hopper.arguments import Radians, RealLike, RealRow, checked
 from hopper.arrays import Array, Complex
 from hopper.errors import InvalidParameterError
 from hopper.problem import Geometry
+from hopper.roots import root_between
 from hopper.values import require_angle
 
 ConeVariant = Literal["bessel", "kummer", "legendre"]
@@ -87,23 +87,23 @@ def cone_wavenumbers(half_angle: Radians, count: int, variant: ConeVariant = "le
         raise InvalidParameterError(
             f"variant = {variant!r} is unknown: use one of {', '.join(CONE_VARIANTS)}"
         )
-    bessel: Array = jn_zeros(1, count) / half_angle
+    bessel: Array = scipy.special.jn_zeros(1, count) / half_angle
     if variant == "bessel":
         return bessel**2
     characteristic: Callable[[float], float]
     if variant == "kummer":
 
         def characteristic(root: float) -> float:
-            return float(hyp1f1(1 - 1.5 * root**2, 2, half_angle**2 / 6))
+            return float(scipy.special.hyp1f1(1 - 1.5 * root**2, 2, half_angle**2 / 6))
 
     else:
 
         def characteristic(root: float) -> float:
-            return float(lpmv(1, sqrt(0.25 + root**2) - 0.5, cos(half_angle)))
+            return float(scipy.special.lpmv(1, sqrt(0.25 + root**2) - 0.5, cos(half_angle)))
 
     # Neighbouring roots are about pi / theta_w apart, and the variants differ by far less.
     margin = 0.3 * pi / half_angle
-    roots = [brentq(characteristic, x - margin, x + margin, xtol=1e-12) for x in bessel]
+    roots = [root_between(characteristic, x - margin, x + margin, xtol=1e-12) for x in bessel]
     return np.array(roots) ** 2
 
 
@@ -132,13 +132,13 @@ def oscillation_threshold(half_angle: RealLike) -> Array:
     ``half_angle`` in radians, below :func:`largest_distinct_half_angle`.
     """
     angle2 = np.asarray(half_angle, dtype=float) ** 2
-    x2 = jn_zeros(1, 1)[0] ** 2
+    x2 = scipy.special.jn_zeros(1, 1)[0] ** 2
     return (-3 * angle2 + 4 * np.sqrt(x2**2 - 2 * x2 * angle2)) / (angle2 + 4 * x2)
 
 
 def largest_distinct_half_angle() -> float:
     """Return the theta_w (radians) below which mu_1 > 2, so that f(theta_w) is defined."""
-    return float(jn_zeros(1, 1)[0]) / sqrt(2)
+    return float(scipy.special.jn_zeros(1, 1)[0]) / sqrt(2)
 
 
 def _checked(delta: float, half_angle: float, count: int) -> float:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from math import isfinite
 
 import numpy as np
-from scipy.optimize import minimize
+import scipy
 
 from hopper.arguments import RealLike, checked
 from hopper.arrays import Array
@@ -133,7 +133,7 @@ def _descended(number: _Scaled, start: Array) -> Extreme:
 
     left = np.inf
     try:
-        minimize(
+        scipy.optimize.minimize(
             held,
             start,
             jac=number.slope,

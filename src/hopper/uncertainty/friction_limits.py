@@ -8,12 +8,12 @@ takes over; how far the interpolant is off is tested, and within that nothing is
 from itertools import product
 
 import numpy as np
-from scipy.optimize import brentq
 
 from hopper.arguments import RealRow, checked
 from hopper.arrays import Array
 from hopper.errors import HopperError
 from hopper.radial.friction_limit import friction_limit
+from hopper.roots import root_between
 from hopper.uncertainty.box import Box
 from hopper.uncertainty.interpolation import interpolated, interpolation_nodes
 from hopper.uncertainty.sampling import points_in_box
@@ -64,7 +64,7 @@ class FrictionLimits:
         ends = below(0.0), below(1.0)
         if not ends[0] * ends[1] < 0:
             return None
-        place = brentq(below, 0.0, 1.0, xtol=1e-12)
+        place = root_between(below, 0.0, 1.0, xtol=1e-12)
         return np.insert(np.asarray(rest, dtype=float), axis, place)
 
     def _below(self, place: Array) -> float:

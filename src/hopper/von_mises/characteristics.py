@@ -16,13 +16,13 @@ from math import pi, sqrt
 from typing import Literal
 
 import numpy as np
-from scipy.optimize import brentq
 
 from hopper.arguments import Fraction, Row, checked
 from hopper.arrays import Numbers
 from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 from hopper.radial.solution import RadialSolution
+from hopper.roots import root_between
 from hopper.spectral import chebyshev
 from hopper.values import require_equal_shapes
 
@@ -146,9 +146,9 @@ def _crossings(solution: RadialSolution, psi: float) -> tuple[float, ...]:
         return float(solution.psi_at(theta)[0]) - psi
 
     top, wall = solution.psi_maximum()[0], solution.hopper.half_angle
-    found = [brentq(excess, 0.0, top, xtol=1e-14)] if excess(top) > 0 else [top]
+    found = [root_between(excess, 0.0, top, xtol=1e-14)] if excess(top) > 0 else [top]
     if excess(wall) < 0:
-        found.append(brentq(excess, top, wall, xtol=1e-14) if excess(top) > 0 else top)
+        found.append(root_between(excess, top, wall, xtol=1e-14) if excess(top) > 0 else top)
     return tuple(float(theta) for theta in found)
 
 

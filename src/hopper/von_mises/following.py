@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from math import copysign, nan
 
 import numpy as np
-from scipy.linalg import lu_factor, lu_solve
+import scipy
 
 from hopper.arguments import Radians, Row, checked
 from hopper.arrays import Array, Complex
@@ -161,10 +161,10 @@ def _eigenvalue(
     right, left = np.ones((2, len(matrix)), dtype=complex) if vectors is None else vectors
     value = near
     for _ in range(_SHIFTS):
-        factors = lu_factor(matrix - value * (1 + _OFF) * unit, check_finite=False)
+        factors = scipy.linalg.lu_factor(matrix - value * (1 + _OFF) * unit, check_finite=False)
         for _ in range(_ITERATIONS):
-            right = _unit(lu_solve(factors, right, check_finite=False))
-            left = _unit(lu_solve(factors, left, trans=2, check_finite=False))
+            right = _unit(scipy.linalg.lu_solve(factors, right, check_finite=False))
+            left = _unit(scipy.linalg.lu_solve(factors, left, trans=2, check_finite=False))
             last, value = value, _quotient(matrix, right, left)
             if abs(value - last) < _SAME * abs(value):
                 return value, np.array([right, left])

@@ -20,12 +20,12 @@ from itertools import pairwise
 from math import exp, inf, log, pi
 
 import numpy as np
-from scipy.optimize import brentq
 
 from hopper.arguments import checked
 from hopper.arrays import Array, Complex
 from hopper.brief import brief
 from hopper.errors import ConvergenceError, InvalidParameterError
+from hopper.roots import root_between
 from hopper.von_mises.high_frequency import HighFrequency
 
 
@@ -169,7 +169,7 @@ def _zeros(terms: Sequence[tuple[float, float]], rates: Sequence[float]) -> list
         if ends[0] == 0:
             found.append(low)
         elif ends[0] * ends[1] < 0:
-            found.append(brentq(value, low, high, xtol=1e-14, rtol=1e-14))
+            found.append(root_between(value, low, high, xtol=1e-14))
     return found
 
 

@@ -5,8 +5,6 @@ from functools import lru_cache
 from math import atan, degrees, isfinite, nan, pi
 from typing import Literal
 
-from scipy.optimize import brentq
-
 from hopper.arguments import AnyFloat, checked
 from hopper.brief import brief
 from hopper.errors import (
@@ -22,6 +20,7 @@ from hopper.problem import Hopper
 from hopper.radial.collocation import Member, largest_psi
 from hopper.radial.members import physical_member
 from hopper.radial.solution import RadialSolution, solve_radial
+from hopper.roots import root_between
 from hopper.values import require_angle
 from hopper.von_mises.characteristics import TENSION, EquationType, equation_type, reaches
 from hopper.von_mises.growth import Growth, growth, resolved_growth
@@ -193,7 +192,7 @@ def flow_limit(hopper: Hopper) -> float:
         high = min(low + step, at_wall)
         try:
             if excess(high) >= 0:
-                return float(brentq(excess, low, high, xtol=1e-12))
+                return root_between(excess, low, high, xtol=1e-12)
             low = high
         except (ConvergenceError, NoRadialSolutionError):
             step /= 2
