@@ -187,12 +187,13 @@ def _no_member(hopper: Hopper, tau: float, bound: str) -> NoRadialSolutionError:
 
 @checked
 def physical_member(
-    hopper: Hopper, friction_angle: Radians, start: Member | None = None
+    hopper: Hopper, friction_angle: Radians, start: Member | None = None, reached: float = 0.0
 ) -> Member | None:
     """Return the member of the physical branch, None beyond its end; tau may be negative.
 
     As :func:`solve_radial`, for sweeps that need no reason where there is no solution. ``start``
-    is a member of this hopper or of one close to it.
+    is a member of this hopper or of one close to it, ``reached`` a tau that the branch surely
+    reaches.
 
     Raises
     ------
@@ -207,7 +208,7 @@ def physical_member(
         return None
     closure = Closure("psi_wall", psi_wall)
     member = solve(hopper, closure, start)
-    if member is not None and member.rising and _certain(member):
+    if member is not None and member.rising and _certain(member, reached):
         return member
     try:
         piece = first_piece(hopper)
@@ -216,12 +217,12 @@ def physical_member(
     return _on_piece(piece, psi_wall) if piece.contains(psi_wall) else None
 
 
-def _certain(member: Member) -> bool:
+def _certain(member: Member, reached: float) -> bool:
     """Whether a member is accurate, and of the physical branch if psi_w rises along the family.
 
     Cones can have a third piece, rising as well, on which the layer at the axis is thin.
     """
     hopper = member.hopper
     cone = hopper.geometry == "cone" and hopper.material == MOHR_COULOMB
-    thick = member.tau * hopper.half_angle < _THICK_LAYER
+    thick = member.tau < max(reached, _THICK_LAYER / hopper.half_angle)
     return member.error < _ACCURATE and (thick or not cone)

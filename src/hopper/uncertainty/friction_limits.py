@@ -30,13 +30,14 @@ class FrictionLimits:
         self.own = [i for i, name in enumerate(box.ranged) if name != "wall"]
         count = _NODES[len(self.own)]
         grid = product(interpolation_nodes(count), repeat=len(self.own))
-        values = np.array([self._limit(np.array(node)) for node in grid])
-        self.values = values.reshape([count] * len(self.own))
-        self.margin = _LEAST
+        found = np.array([self._limit(np.array(node)) for node in grid])
+        # Of friction angles, and of log(tau) at the end of the branch.
+        self.tables = found.T.reshape([2, *[count] * len(self.own)])
+        self.margin, self.tau_margin = _LEAST, _LEAST
         if self.own:
             tests = points_in_box(len(self.own), _TESTS).reshape(-1, len(self.own))
-            off = [abs(self._limit(test) - self._interpolated(test)) for test in tests]
-            self.margin += _SAFETY * max(off)
+            off = np.abs([self._limit(test) - self._interpolated(test) for test in tests])
+            self.margin, self.tau_margin = _LEAST + _SAFETY * off.max(axis=0)
 
     @checked
     def exclude(self, point: RealRow) -> bool:
@@ -46,6 +47,15 @@ class FrictionLimits:
             return False
         # NaN, where a node is not resolved, excludes nothing.
         return self._below(place) < -self.margin
+
+    @checked
+    def thickest(self, point: RealRow) -> float:
+        """Return a tau that the physical branch surely reaches at a point of the box, or 0."""
+        place = np.asarray(point, dtype=float)
+        if np.any((place < 0) | (place > 1)):
+            return 0.0
+        log_tau = self._interpolated(place[self.own])[1] - self.tau_margin
+        return float(np.exp(log_tau)) if np.isfinite(log_tau) else 0.0
 
     @checked
     def border(self, rest: RealRow, margins: float = 1.0) -> Array | None:
@@ -70,18 +80,22 @@ class FrictionLimits:
     def _below(self, place: Array) -> float:
         """Return how far the wall at a point is below the largest friction angle."""
         material, _ = self.box.hopper(place)
-        return self._interpolated(place[self.own]) - material.friction_angle
+        return float(self._interpolated(place[self.own])[0]) - material.friction_angle
 
-    def _limit(self, part: Array) -> float:
+    def _limit(self, part: Array) -> tuple[float, float]:
+        """Return the largest friction angle, and log(tau) there where it is a fold."""
         point = self.box.middle.copy()
         point[self.own] = part
         material, half_angle = self.box.hopper(point)
         try:
-            return friction_limit(material.hopper(half_angle)).friction_angle
+            found = friction_limit(material.hopper(half_angle))
         except HopperError:
-            return np.nan
+            return np.nan, np.nan
+        return found.friction_angle, np.log(found.tau) if found.end == "fold" else np.nan
 
-    def _interpolated(self, part: Array) -> float:
-        if np.isnan(self.values).any():
-            return np.nan
-        return float(interpolated(self.values, part.reshape(1, -1))[0])
+    def _interpolated(self, part: Array) -> Array:
+        rows = (
+            np.nan if np.isnan(table).any() else interpolated(table, part[None])[0]
+            for table in self.tables
+        )
+        return np.array([*rows])

@@ -152,8 +152,9 @@ class BoxedHoppers:
         material, half_angle = self.box.hopper(point)
         hopper = material.hopper(half_angle)
         start = self._last[0] if self._last else None
+        reached = self._limits[0].thickest(point) if self._limits else 0.0
         try:
-            member = physical_member(hopper, material.friction_angle, start)
+            member = physical_member(hopper, material.friction_angle, start, reached)
         except WallFrictionError:
             return "no_wall_angle"
         except ConvergenceError:
