@@ -3,9 +3,8 @@
 import argparse
 from argparse import Namespace
 from collections.abc import Callable
-from dataclasses import dataclass
 from math import floor, isfinite, prod
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 from hopper_cli.errors import UsageError
 
@@ -17,8 +16,7 @@ _MOST_ROWS = 10_000
 _ROUNDING = 1e-9
 
 
-@dataclass(frozen=True)
-class Given:
+class Given(NamedTuple):
     """A range of an option; ``spread`` where it was given as a mean and a deviation."""
 
     low: float
@@ -35,8 +33,7 @@ class Given:
         return f"{self.low:.6g} to {self.high:.6g}"
 
 
-@dataclass(frozen=True)
-class Steps:
+class Steps(NamedTuple):
     """Values of an option from ``start`` to ``stop``, both included if the steps meet it."""
 
     start: float

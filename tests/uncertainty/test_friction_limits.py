@@ -47,6 +47,8 @@ def test_members_with_thin_layers_are_those_of_the_whole_search(folds):
         hopper, phi = material.hopper(half_angle), material.friction_angle
         quick = physical_member(hopper, phi, reached=folds.thickest(point))
         whole = physical_member(hopper, phi)
+        assert quick
+        assert whole
         assert abs(quick.tau - whole.tau) <= (quick.error + whole.error) * whole.tau
         found += quick.tau * half_angle > 20
     assert found
