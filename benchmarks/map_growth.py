@@ -20,7 +20,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "scripts"))
 import compute_map_chunk
 import judge_claims
 import plot_fig_4_5_map
-from hopper_workflow import artifacts, maps, plotting
+from hopper_workflow import artifacts, merging, plotting
 from hopper.domain.stability_map import Sweep
 from hopper_workflow.claims.words import paths_of, read_claims
 
@@ -74,7 +74,7 @@ def measure(rule: str, side: int, run: Path, folder: Path) -> None:
             write_chunk(path, side, chunk, CHUNKS)
     elif rule == "merge_map":
         paths = [str(path) for path in chunks]
-        write_artifact(maps.merged, folder / "map.nc", chunks=paths, **with_points(side))
+        write_artifact(merging.merged, folder / "map.nc", chunks=paths, **with_points(side))
     elif rule == "judge_claims":
         claims, schema = run / "resources/claims.yaml", run / "workflow/schemas/claims.schema.yaml"
         paths = [

@@ -7,7 +7,6 @@ from math import radians
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from hopper_workflow import artifacts, jobs, paper_checks, ranges
 from hopper.domain.borders import traced_borders
@@ -15,7 +14,7 @@ from hopper.domain.growth import ROOT_TOLERANCE
 from hopper.domain.neutral_curve import NeutralCurve, neutral_curve
 from hopper.domain.neutral_points import neutral_delta
 from hopper.problem import Geometry, Hopper, as_geometry
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.domain import BORDERS, NEUTRAL_CURVE
 from hopper_data.tables import angle, in_degrees, within
 
@@ -28,7 +27,7 @@ def compute_borders(
     delta_deg: dict[str, Any],
     chord_deg: float,
     check: dict[str, Any],
-) -> xr.Dataset:
+) -> CfDataset:
     """Trace the neutral curve and the borders over delta; each point is a root of an equation.
 
     A few points of the neutral curve, its end left out, are checked by the paper's algorithm.

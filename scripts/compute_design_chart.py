@@ -6,19 +6,18 @@ from math import radians
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from hopper_workflow import artifacts, jobs, ranges
 from hopper.design.charts import chart
 from hopper.problem import as_geometry
 from hopper_data.charts import CHARTS, side_by_side
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.tables import in_degrees
 
 
 def compute_design_chart(
     *, geometry: str, deltas_deg: Sequence[float], half_angles_deg: dict[str, Any], frictions: int
-) -> xr.Dataset:
+) -> CfDataset:
     """Compute a chart for each internal friction."""
     report = jobs.progress(logging.getLogger(), "internal frictions")
     angles = np.radians(ranges.spaced(**half_angles_deg))

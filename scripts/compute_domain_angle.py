@@ -6,14 +6,13 @@ from math import ceil, isnan, radians
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from hopper_workflow import artifacts, jobs
 from hopper.arrays import Array
 from hopper.domain.borders import borders, stable_area
 from hopper.domain.neutral_curve import NeutralCurve, neutral_curve
 from hopper.domain.neutral_points import neutral_delta
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.tables import Table, angle, flag, in_degrees
 
 
@@ -24,7 +23,7 @@ def compute_domain_angle(
     largest_delta_deg: float,
     neutral_step_deg: float,
     curve_points: int,
-) -> xr.Dataset:
+) -> CfDataset:
     """Compute the area of the domain up to a largest delta, and neutral deltas.
 
     Neutral deltas are roots at each half angle, and at as many in between as curves need.

@@ -3,17 +3,16 @@
 from math import radians
 
 import numpy as np
-import xarray as xr
 
 from hopper_workflow import artifacts, jobs
 from hopper.stability.smooth_wall import cone_eigenvalues, cone_wavenumbers, wedge_eigenvalues
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.tables import complex_number, flag
 
 
 def compute_exact_spectrum(
     *, geometry: str, delta_deg: float, half_angle_deg: float, modes: int
-) -> xr.Dataset:
+) -> CfDataset:
     """Evaluate (4.7) for a wedge, (4.9) with Bessel and exact wavenumbers for a cone."""
     delta, half_angle = radians(delta_deg), radians(half_angle_deg)
     kinds: tuple[str, ...]

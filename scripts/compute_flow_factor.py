@@ -5,21 +5,20 @@ from math import radians
 
 import numpy as np
 import pandas as pd
-import xarray as xr
 
 from hopper_workflow import artifacts, jobs, ranges
 from hopper.errors import NoRadialSolutionError
 from hopper.problem import Hopper
 from hopper.radial.flow_factor import flow_factor
 from hopper.radial.solution import solve_radial
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.inputs import hopper_of
 from hopper_data.tables import in_degrees, number, text
 
 
 def compute_flow_factor(
     chart: str, *, friction_angles_deg: dict[str, float], least_friction_deg: float
-) -> xr.Dataset:
+) -> CfDataset:
     """Compute flow factors at the chart's points, and along a curve for each of its hoppers."""
     published = pd.read_csv(chart)
     grid = ranges.steps(**friction_angles_deg)

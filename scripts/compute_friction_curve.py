@@ -7,14 +7,13 @@ from math import atan, tan
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from hopper_workflow import artifacts, jobs, paper_checks, ranges
 from hopper.domain.borders import tangency_friction
 from hopper.domain.stability_map import sweep_friction
 from hopper.problem import Hopper
 from hopper.radial.friction_limit import friction_limit
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.domain import SWEEP
 from hopper_data.inputs import hopper_of
 from hopper_data.tables import in_degrees, number, within
@@ -27,7 +26,7 @@ def compute_friction_curve(
     deltas_deg: Sequence[float],
     mu: dict[str, Any],
     check: dict[str, Any] | None = None,
-) -> xr.Dataset:
+) -> CfDataset:
     """Sweep mu for every delta, and compute points of each curve by the paper's algorithm.
 
     A curve ends at the limit of friction where that comes before the end of the range.

@@ -6,7 +6,6 @@ from math import radians, sin
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from hopper_workflow import artifacts, jobs, ranges
 from hopper.evidence import first_derivative, smooth_operator
@@ -16,7 +15,7 @@ from hopper.problem import Geometry
 from hopper.spectral.transient import oscillation
 from hopper.stability import smooth_wall
 from hopper.stability.transient import modal_basis
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.inputs import hopper_of, solution_of
 from hopper_data.tables import angle, in_degrees, number, text, within
 from hopper_workflow.kept_modes import by_half
@@ -37,7 +36,7 @@ def compute_linear_checks(
     folds: dict[str, Any],
     windows: dict[str, Any],
     norms: dict[str, dict[str, Any]],
-) -> xr.Dataset:
+) -> CfDataset:
     """Check the deductions of section 4; ``wedge`` and ``cone`` are filtered spectra."""
     case = (delta_deg, half_angle_deg)
     result = {

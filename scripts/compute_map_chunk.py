@@ -2,14 +2,13 @@
 
 from typing import Any
 
-import xarray as xr
-
 from hopper_workflow import artifacts, jobs, maps
 from hopper.domain.stability_map import sweep_friction
+from hopper_data.datasets import CfDataset
 from hopper_data.domain import SWEEP
 
 
-def compute_map_chunk(*, geometry: str, half_angle_deg: float, **grid: Any) -> xr.Dataset:
+def compute_map_chunk(*, geometry: str, half_angle_deg: float, **grid: Any) -> CfDataset:
     """Judge hoppers of Mohr-Coulomb material."""
     hopper = geometry, half_angle_deg, "mohr-coulomb"
     return maps.swept(sweep_friction, SWEEP, hopper, **grid)

@@ -5,7 +5,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from hopper_workflow import artifacts, jobs, marches
 from hopper.arrays import Array
@@ -13,7 +12,7 @@ from hopper.march.base import Base
 from hopper.march.optics import estimated_breakdown, threshold_factor
 from hopper.march.outcome import first_crossing
 from hopper.stability.asymptotic_line import asymptotic_line
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.tables import Table, flag, number, text
 from hopper_data.tops import top_of
 
@@ -29,7 +28,7 @@ def compute_march_amplitude(
     depth: float,
     cells: int,
     tolerance: float,
-) -> xr.Dataset:
+) -> CfDataset:
     """Find the first crossing of each amplitude in each hopper."""
     report = jobs.progress(logging.getLogger(), "hoppers")
     estimated = np.geomspace(min(eps), max(eps), estimates)

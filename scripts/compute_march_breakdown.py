@@ -3,13 +3,11 @@
 from collections.abc import Mapping
 from typing import Any
 
-import xarray as xr
-
 from hopper_workflow import artifacts, jobs
 from hopper.assessment.march import assess_march
 from hopper.march.lines import characteristics
 from hopper_data import assessments
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.inputs import solution_of
 from hopper_data.tables import Table, angle, flag, number
 from hopper_data.tops import top_of
@@ -17,7 +15,7 @@ from hopper_data.tops import top_of
 
 def compute_march_breakdown(
     *, hopper: Mapping[str, Any], top: Mapping[str, Any], depth: float, cells: int
-) -> xr.Dataset:
+) -> CfDataset:
     """March one top down one hopper."""
     given = top_of(**top)
     found = assess_march(solution_of(**hopper), given, depth)

@@ -5,14 +5,13 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from hopper_workflow import artifacts, jobs, marches
 from hopper.arrays import Array
 from hopper.march.outcome import march
 from hopper.march.result import March
 from hopper.stability.modes import linear_stability
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.tables import Table, number, text
 from hopper_data.tops import top_of
 
@@ -26,7 +25,7 @@ def compute_march_decay(
     points: int,
     linear_eps: float,
     cells: int,
-) -> xr.Dataset:
+) -> CfDataset:
     """March tops of several amplitudes down several hoppers."""
     report = jobs.progress(logging.getLogger(), "hoppers")
     tau = np.linspace(0, depth, points)

@@ -5,13 +5,12 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from hopper_workflow import artifacts, jobs, marches
 from hopper.march.outcome import march
 from hopper.march.result import March
 from hopper.stability.asymptotic_line import asymptotic_line
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.tables import Table, flag, number, text
 from hopper_data.tops import top_of
 
@@ -25,7 +24,7 @@ def compute_march_depth(
     depth: float,
     cells: int,
     tolerance: float,
-) -> xr.Dataset:
+) -> CfDataset:
     """March every top down every hopper."""
     report = jobs.progress(logging.getLogger(), "marches", 8)
     found: list[dict[str, Any]] = []

@@ -7,7 +7,6 @@ from math import atan, radians, sin, tan
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from hopper_workflow import artifacts, jobs, ranges
 from hopper.evidence import printed
@@ -19,7 +18,7 @@ from hopper.radial.solution import radial_solutions
 from hopper.radial.velocity import solve_velocity
 from hopper.stability.tilted import tangency_angle
 from hopper.yield_conditions import MOHR_COULOMB, VON_MISES, YieldCondition, yield_condition
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.inputs import hopper_of
 from hopper_data.tables import Table, angle, in_degrees, number, text, within
 
@@ -33,7 +32,7 @@ def compute_model_checks(
     mu: Sequence[float],
     deltas_deg: dict[str, float],
     psi_points: int,
-) -> xr.Dataset:
+) -> CfDataset:
     """Check the radial fields of one hopper, and what is said of any delta."""
     hoppers = [hopper_of(geometry, delta_deg, half_angle_deg, model) for model in models]
     deltas = ranges.steps(**deltas_deg)

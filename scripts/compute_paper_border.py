@@ -5,7 +5,6 @@ from math import nan, radians
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from hopper_workflow import artifacts, jobs, ranges
 from hopper.errors import HopperError
@@ -13,7 +12,7 @@ from hopper.evidence.sign_changes import sign_changes
 from hopper.problem import Hopper
 from hopper.radial.solution import solve_radial
 from hopper.stability.paper_abscissa import paper_abscissa
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.tables import Table, angle, flag, in_degrees, number
 
 
@@ -27,7 +26,7 @@ def compute_paper_border(
     nodes: int,
     coarse_nodes: int,
     tolerance: float,
-) -> xr.Dataset:
+) -> CfDataset:
     """Follow the abscissa over delta, both parities as worded, at wall frictions up to the corner.
 
     That is where the neutral curve of ``border`` ends on the fold of the radial solutions.

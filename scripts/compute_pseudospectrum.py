@@ -4,7 +4,6 @@ import logging
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from hopper_workflow import artifacts, jobs, ranges
 from hopper.spectral.matching import by_modulus
@@ -13,7 +12,7 @@ from hopper.spectral.schur import schur_form
 from hopper.stability.mesh_spectrum import HALVES
 from hopper.stability.paper_matrix import Half, half_matrix
 from hopper.stability.transient import Norm, half_weights
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.inputs import solution_of
 from hopper_data.stability import PLANE, PSEUDOSPECTRUM
 from hopper_data.tables import complex_number
@@ -28,7 +27,7 @@ def compute_pseudospectrum(
     psi_scale: float,
     real: dict[str, Any],
     imag: dict[str, Any],
-) -> xr.Dataset:
+) -> CfDataset:
     """Compute the grid in the paper's formulation, both parities, or the physical, the flow's."""
     solution = solution_of(**hopper)
     halves: tuple[Half, ...] = HALVES if formulation == "paper" else ("physical",)

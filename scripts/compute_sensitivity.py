@@ -4,7 +4,6 @@ import logging
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from hopper_workflow import artifacts, jobs, kept_modes
 from hopper.spectral.schur import schur_form
@@ -17,7 +16,7 @@ from hopper.spectral.sensitivity import (
 from hopper.spectral.transient import condition_number, growth_curves
 from hopper.stability.paper_matrix import half_matrix
 from hopper.stability.transient import Norm, half_weights, modal_basis
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.inputs import solution_of
 from hopper_data.stability import HALF
 from hopper_data.tables import complex_number, number
@@ -33,7 +32,7 @@ def compute_sensitivity(
     psi_scale: float,
     frequencies: dict[str, Any],
     elapsed: dict[str, Any],
-) -> xr.Dataset:
+) -> CfDataset:
     """Measure the non-normality of M on the kept modes and of the full matrix."""
     solution = solution_of(**hopper)
     kept = kept_modes.by_half(artifacts.read(spectrum), formulation)

@@ -3,18 +3,17 @@
 from math import radians
 
 import numpy as np
-import xarray as xr
 
 from hopper_workflow import artifacts, jobs, ranges
 from hopper.problem import Geometry
 from hopper.stability import smooth_wall
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.tables import angle, in_degrees, number, text
 
 
 def compute_smooth_wall(
     *, delta_deg: dict[str, float], half_angles_deg: dict[str, float], modes: int
-) -> xr.Dataset:
+) -> CfDataset:
     """Tabulate the theory over delta (Figure 4.1) and over the half angle (cone variants)."""
     delta, angles = ranges.steps(**delta_deg), ranges.steps(**half_angles_deg)
     crossing = smooth_wall.crossing_delta()

@@ -3,12 +3,10 @@
 import logging
 from math import degrees
 
-import xarray as xr
-
 from hopper_workflow import artifacts, jobs
 from hopper.stability.mesh_spectrum import mesh_spectrum
 from hopper.stability.tilted import tangency_angle
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.inputs import solution_of
 from hopper_data.stability import MESH_SPECTRUM
 from hopper_data.tables import angle, number, within
@@ -16,7 +14,7 @@ from hopper_data.tables import angle, number, within
 
 def compute_spectrum(
     *, geometry: str, delta_deg: float, half_angle_deg: float, mu: float, nodes: int
-) -> xr.Dataset:
+) -> CfDataset:
     """Compute all eigenvalues with their parity and the tails of their eigenvectors."""
     solution = solution_of(geometry, delta_deg, half_angle_deg, mu)
     spectrum = mesh_spectrum(solution, nodes)

@@ -2,18 +2,16 @@
 
 import logging
 
-import xarray as xr
-
 from hopper_workflow import artifacts, jobs
 from hopper.stability.modes import linear_stability
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.inputs import solution_of
 from hopper_data.stability import STABILITY
 
 
 def compute_stability(
     *, geometry: str, delta_deg: float, half_angle_deg: float, mu: float
-) -> xr.Dataset:
+) -> CfDataset:
     """Compute the verdict of stability that needs no large mesh."""
     result = linear_stability(solution_of(geometry, delta_deg, half_angle_deg, mu))
     logging.info(

@@ -6,12 +6,11 @@ from itertools import product
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from hopper_workflow import artifacts, jobs, kept_modes
 from hopper.spectral.transient import abscissa, condition_number, growth_curves
 from hopper.stability.transient import NORMS, Norm, modal_basis
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.inputs import solution_of
 from hopper_data.tables import flag, number, within
 
@@ -25,7 +24,7 @@ def compute_transient(
     norms: Sequence[Norm],
     psi_scales: Sequence[float],
     elapsed: dict[str, Any],
-) -> xr.Dataset:
+) -> CfDataset:
     """Compute the norm over -t in [0, elapsed.stop] for every formulation, norm and weight of psi.
 
     ``elapsed.points`` is the least number of times; there are as many as the curves need.

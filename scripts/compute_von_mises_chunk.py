@@ -2,14 +2,13 @@
 
 from typing import Any
 
-import xarray as xr
-
 from hopper_workflow import artifacts, jobs, maps
 from hopper.domain.coupled import sweep_coupled
+from hopper_data.datasets import CfDataset
 from hopper_data.domain import COUPLED_SWEEP
 
 
-def compute_von_mises_chunk(*, geometry: str, half_angle_deg: float, **grid: Any) -> xr.Dataset:
+def compute_von_mises_chunk(*, geometry: str, half_angle_deg: float, **grid: Any) -> CfDataset:
     """Judge cones of von Mises material."""
     return maps.swept(sweep_coupled, COUPLED_SWEEP, (geometry, half_angle_deg, "von-mises"), **grid)
 

@@ -4,7 +4,6 @@ import logging
 from math import radians
 
 import numpy as np
-import xarray as xr
 
 from hopper_workflow import artifacts, jobs, ranges
 from hopper.domain.coupled import coupled_borders, decay_rates, stable_edge
@@ -12,7 +11,7 @@ from hopper.problem import Hopper
 from hopper.von_mises.characteristics import AXIS_HYPERBOLIC, TENSION
 from hopper.von_mises.neutral_curve import neutral_curve
 from hopper.yield_conditions import VON_MISES
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.domain import COUPLED_BORDERS, COUPLED_NEUTRAL
 from hopper_data.tables import angle, number, within
 
@@ -25,7 +24,7 @@ def compute_von_mises_domain(
     neutral_step_deg: float,
     edge_points: int,
     decay: dict[str, int],
-) -> xr.Dataset:
+) -> CfDataset:
     """Trace borders as roots; rates on a grid that follows the border of elliptic flows."""
     half_angle, least = radians(half_angle_deg), radians(least_delta_deg)
     below = least + ranges.closing_in(AXIS_HYPERBOLIC - least, border_points)

@@ -4,7 +4,6 @@ from dataclasses import replace
 from math import atan, radians
 
 import numpy as np
-import xarray as xr
 
 from hopper_workflow import artifacts, jobs
 from hopper.errors import ConvergenceError
@@ -15,14 +14,14 @@ from hopper.von_mises.high_frequency import high_frequency
 from hopper.von_mises.modes import modes_on
 from hopper.von_mises.strips import rays, strips
 from hopper.yield_conditions import VON_MISES
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.stability import COUPLED_FLAGS, eigenvalues
 from hopper_data.tables import complex_number, number, within
 
 
 def compute_von_mises_spectrum(
     *, geometry: Geometry, delta_deg: float, half_angle_deg: float, mu: float, half_nodes: int
-) -> xr.Dataset:
+) -> CfDataset:
     """Compare a mesh with the one before, and resolved modes with the law of high frequency."""
     hopper = Hopper(geometry, radians(delta_deg), radians(half_angle_deg), VON_MISES)
     solution = solve_radial(hopper, atan(mu))

@@ -3,12 +3,10 @@
 import logging
 from typing import Any
 
-import xarray as xr
-
 from hopper_workflow import artifacts, jobs
 from hopper.spectral.matching import unbroken_run
 from hopper.stability.convergence_filter import convergence_filter
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.stability import FILTERED_SPECTRUM, read_mesh_spectrum
 from hopper_data.tables import number, within
 
@@ -24,7 +22,7 @@ def filter_spectrum(
     nodes: int,
     coarse_nodes: int,
     tolerance: float,
-) -> xr.Dataset:
+) -> CfDataset:
     """Judge each eigenvalue of the fine mesh, as the paper words the filter and soundly."""
     hopper: dict[str, Any] = {
         "geometry": geometry,

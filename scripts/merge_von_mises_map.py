@@ -1,10 +1,10 @@
 """One map of von Mises cones from its chunks."""
 
-from hopper_workflow import artifacts, jobs, maps
+from hopper_workflow import artifacts, jobs, merging
 
 if __name__ == "__main__":
     jobs.run(
         artifacts.writing(
-            maps.merged, "Map of verdicts, von Mises {geometry}", "(2.8)-(2.15), linearised"
+            merging.merged, "Map of verdicts, von Mises {geometry}", "(2.8)-(2.15), linearised"
         )
     )

@@ -5,11 +5,10 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from hopper_workflow import artifacts, jobs
 from hopper.radial.velocity import solve_velocity
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.inputs import solution_of
 from hopper_data.radial import FIELD, field
 from hopper_data.tables import in_degrees, number, text, within
@@ -23,7 +22,7 @@ def solve_radial(
     models: Sequence[str],
     mu: Sequence[float],
     points: int,
-) -> xr.Dataset:
+) -> CfDataset:
     """Solve for every model and wall friction; the profiles are over [-theta_w, theta_w]."""
     theta = np.linspace(-half_angle_deg, half_angle_deg, points)
     hopper = (geometry, delta_deg, half_angle_deg)

@@ -190,6 +190,7 @@ def results():
     from hopper.von_mises.neutral_curve import neutral_curve as coupled_neutral_curve
     from hopper.von_mises.saint_venant import end_effects
     from hopper.von_mises.verdict import judge
+    from hopper_data.datasets import dataset
     from hopper_data.hopper_lists import HopperList
     from hopper_data.inputs import Case
     from hopper_data.tables import number, rows
@@ -269,6 +270,7 @@ def results():
         over.numbers["half_angles.classical"],
         Ranged(flow_pattern(steel_wall, 0.2), {}, {}, None, 0.0),
         *(extremes(lambda x: float(x[0]), [[0.0], [1.0]]) or ()),
+        dataset(solution, [number("sigma_axis", "stress")]),
     ]  # fmt: skip
     assert all(found)
     return {type(item).__name__: item for item in found}

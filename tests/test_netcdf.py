@@ -8,29 +8,30 @@ from collections import namedtuple
 from pathlib import Path
 
 import pytest
-import xarray as xr
 
 from hopper_data import cf
+from hopper_data.datasets import CfDataset
+from hopper_data.reading import open_stored
 
 Usage = namedtuple("Usage", "total used free")
-DATA = xr.Dataset({"a": ("x", [1.0, 2.0])})
-STORE = xr.Dataset.to_netcdf
+DATA = CfDataset({"a": (("x",), [1.0, 2.0], {})}, {}, {})
+FILL = cf._fill
 
 
 def write(path):
-    cf.write(DATA.copy(), path, title="t", equations="e", parameters={})
+    cf.write(DATA, path, title="t", equations="e", parameters={})
 
 
 @pytest.fixture
 def refused(tmp_path, monkeypatch):
     """The folder in which no file can be locked."""
 
-    def store(dataset, path, **options):
+    def fill(dataset, attributes, path):
         if tmp_path in path.parents:
             raise PermissionError(13, "Permission denied", str(path))
-        return STORE(dataset, path, **options)
+        FILL(dataset, attributes, path)
 
-    monkeypatch.setattr(xr.Dataset, "to_netcdf", store)
+    monkeypatch.setattr(cf, "_fill", fill)
     monkeypatch.setenv("TMPDIR", str(tmp_path.parent))
     return tmp_path
 
@@ -38,7 +39,7 @@ def refused(tmp_path, monkeypatch):
 def test_with_room_on_the_disk_it_is_the_locks(refused, monkeypatch):
     monkeypatch.setattr("tempfile.tempdir", str(refused.parent))
     write(refused / "file.nc")
-    assert cf.open_stored(refused / "file.nc").a.values.tolist() == [1, 2]
+    assert open_stored(refused / "file.nc").a.values.tolist() == [1, 2]
 
 
 def test_without_it_is_the_disk(refused, monkeypatch):
@@ -75,10 +76,10 @@ def test_a_file_system_without_locks(tmp_path, settled):
     library = tmp_path / "none.so"
     subprocess.run(["cc", "-shared", "-fPIC", "-o", library, tmp_path / "none.c"], check=True)
     code = (
-        "import sys, xarray; from hopper_data import cf\n"
-        "data = xarray.Dataset({'a': ('x', [1.0, 2.0])})\n"
+        "import sys; from hopper_data import cf, datasets, reading\n"
+        "data = datasets.CfDataset({'a': (('x',), [1.0, 2.0], {})}, {}, {})\n"
         "cf.write(data, sys.argv[1], title='t', equations='e', parameters={})\n"
-        "print(cf.open_stored(sys.argv[1]).a.values.tolist())"
+        "print(reading.open_stored(sys.argv[1]).a.values.tolist())"
     )
     folder = tmp_path / "folder"
     environment = {"LD_PRELOAD": str(library), "NO_LOCKS": str(folder.resolve())}

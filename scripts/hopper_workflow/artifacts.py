@@ -7,16 +7,18 @@ from datetime import UTC, datetime
 from importlib.metadata import version
 from inspect import Parameter, signature
 from pathlib import Path
-from typing import Any
-
-import xarray as xr
+from typing import TYPE_CHECKING, Any
 
 import hopper
 from hopper_data import cf
 from hopper_data.cf import plain as plain
+from hopper_data.datasets import CfDataset
 from hopper_data.files import replacing as replacing
 from hopper_workflow.commit import commit
 from hopper_workflow.logs import checksum as checksum
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 _PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "matplotlib", "snakemake")
 
@@ -26,7 +28,7 @@ class ArtifactError(Exception):
 
 
 def write(
-    dataset: xr.Dataset,
+    dataset: CfDataset,
     path: str | Path,
     provenance: str | Path,
     *,
@@ -50,7 +52,7 @@ def write(
     _write_provenance(Path(path), Path(provenance), title, equations, parameters)
 
 
-def writing(compute: Callable[..., xr.Dataset], title: str, equations: str) -> Callable[..., None]:
+def writing(compute: Callable[..., CfDataset], title: str, equations: str) -> Callable[..., None]:
     """Return the function of a computing rule: it writes the dataset that ``compute`` returns.
 
     ``compute`` takes the job's inputs, and its params as keywords only; these are the artifact's
@@ -130,7 +132,7 @@ def verify(path: str | Path) -> None:
 
 def read(
     path: str | Path, parameters: Mapping[str, Any] | None = None, *, stored: bool = False
-) -> xr.Dataset:
+) -> "xr.Dataset":
     """Verify an artifact and load it into memory, flags and complex numbers as names and numbers.
 
     With ``stored`` as the file holds it.
@@ -140,8 +142,10 @@ def read(
     ArtifactError
         As :func:`verify`, or if it holds other parameters than ``parameters``.
     """
+    from hopper_data import reading  # most jobs only write, and need no xarray
+
     verify(path)
-    loaded = cf.open_stored(path) if stored else cf.open_artifact(path)
+    loaded = reading.open_stored(path) if stored else reading.open_artifact(path)
     if parameters is not None and loaded.attrs["parameters"] != plain(parameters):
         raise ArtifactError(
             f"artifact {path} belongs to another configuration: "

@@ -1,15 +1,14 @@
-"""Maps over internal and wall friction in chunks of rows; the same whatever their number."""
+"""Maps over internal and wall friction in chunks of rows."""
 
 import logging
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
-from hopper_workflow import artifacts, jobs, ranges
+from hopper_workflow import jobs, ranges
 from hopper.problem import Hopper
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.inputs import hopper_of
 from hopper_data.tables import Table, in_degrees, number, within
 
@@ -29,7 +28,7 @@ def swept(
     phi_deg: dict[str, Any],
     chunk: int,
     chunks: int,
-) -> xr.Dataset:
+) -> CfDataset:
     """Sweep the rows chunk, chunk + chunks, ...; each row is independent of the others.
 
     ``hopper`` is geometry, half angle in degrees and model.
@@ -44,30 +43,3 @@ def swept(
         report(done, deltas.size)
     result = {"sweeps": sweeps, "delta": deltas, "phi": phis, "row": rows}
     return dataset(result, within("sweeps", table), _AXES, leading="delta")
-
-
-def merged(
-    chunks: Sequence[str],
-    *,
-    geometry: str,
-    half_angle_deg: float,
-    delta_deg: dict[str, Any],
-    phi_deg: dict[str, Any],
-) -> xr.Dataset:
-    """Sort the rows of all chunks by delta."""
-    parameters = {
-        "geometry": geometry,
-        "half_angle_deg": half_angle_deg,
-        "delta_deg": delta_deg,
-        "phi_deg": phi_deg,
-    }
-    parts = [
-        artifacts.read(path, {**parameters, "chunk": index, "chunks": len(chunks)}, stored=True)
-        for index, path in enumerate(chunks)
-    ]
-    whole = xr.concat(parts, "delta", combine_attrs="drop_conflicts")
-    whole = whole.sortby("row").drop_vars("row")
-    for variable in whole.variables.values():
-        # As read, it still names the dropped coordinate.
-        variable.encoding.pop("coordinates", None)
-    return whole

@@ -6,10 +6,10 @@ wrote. Both name flags by their meanings: ``open_artifact(path).sel(kept_in="phy
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from hopper_data.cf import open_artifact as open_artifact
+    from hopper_data.reading import open_artifact as open_artifact
     from hopper_data.results import to_dataset as to_dataset
 
-_HOMES = {"open_artifact": "hopper_data.cf", "to_dataset": "hopper_data.results"}
+_HOMES = {"open_artifact": "hopper_data.reading", "to_dataset": "hopper_data.results"}
 
 
 if not TYPE_CHECKING:

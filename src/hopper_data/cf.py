@@ -1,4 +1,4 @@
-"""netCDF files that follow the CF and ACDD conventions, written and read."""
+"""netCDF files that follow the CF and ACDD conventions, written."""
 
 import errno
 import json
@@ -8,10 +8,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import xarray as xr
+import netCDF4
+import numpy as np
 
 import hopper
-from hopper_data.decoding import decoded
+from hopper_data.datasets import CfDataset
 from hopper_data.files import replacing
 
 # Bytes below which a disk is full for an artifact.
@@ -29,7 +30,7 @@ def plain(parameters: Mapping[str, Any]) -> str:
 
 
 def write(
-    dataset: xr.Dataset,
+    dataset: CfDataset,
     path: str | Path,
     *,
     title: str,
@@ -47,21 +48,22 @@ def write(
     OSError
         If the file cannot be written, for one because the disk is full; no part of it stays.
     """
-    dataset = dataset.assign_attrs(
-        Conventions="CF-1.11, ACDD-1.3",
-        title=title,
-        summary=f"{title}. Equations: {equations}.",
-        keywords="granular flow, hopper, similarity solution, linear stability",
-        source=f"hopper {hopper.__version__}",
-        product_version=hopper.__version__,
-        institution="hopper project",
-        history=history,
-        references=PAPER,
-        parameters=plain(parameters),
-    )
+    attributes = {
+        **dataset.attributes,
+        "Conventions": "CF-1.11, ACDD-1.3",
+        "title": title,
+        "summary": f"{title}. Equations: {equations}.",
+        "keywords": "granular flow, hopper, similarity solution, linear stability",
+        "source": f"hopper {hopper.__version__}",
+        "product_version": hopper.__version__,
+        "institution": "hopper project",
+        "history": history,
+        "references": PAPER,
+        "parameters": plain(parameters),
+    }
     with replacing(path) as temporary:
         try:
-            _store(dataset, temporary)
+            _store(dataset, attributes, temporary)
         except (RuntimeError, PermissionError) as error:
             # What the library says of a full disk is "HDF error", or that permission is denied.
             free = shutil.disk_usage(temporary.parent).free
@@ -71,52 +73,35 @@ def write(
             raise OSError(errno.EIO, reason, str(path)) from error
 
 
-def _store(dataset: xr.Dataset, path: Path) -> None:
-    encoding = {name: {"_FillValue": None} for name in dataset.variables}
+def _store(dataset: CfDataset, attributes: Mapping[str, Any], path: Path) -> None:
     try:
-        dataset.to_netcdf(path, engine="netcdf4", format="NETCDF4", encoding=encoding)
+        _fill(dataset, attributes, path)
     except PermissionError:
         if shutil.disk_usage(path.parent).free <= _LITTLE:
             raise
         # HDF5 says so where the file system has no locks: write where there are some.
         with tempfile.TemporaryDirectory() as folder:
             copy = Path(folder, path.name)
-            dataset.to_netcdf(copy, engine="netcdf4", format="NETCDF4", encoding=encoding)
+            _fill(dataset, attributes, copy)
             shutil.copyfile(copy, path)
 
 
-def open_stored(path: str | Path) -> xr.Dataset:
-    """Load a netCDF file into memory as it is stored: flags as codes, complex numbers in two parts.
-
-    Raises
-    ------
-    OSError
-        If it is missing or not a netCDF file.
-    """
-    try:
-        return _load(path)
-    except OSError:
-        if not Path(path).is_file():
-            raise
-        # Not a netCDF file, or one on a file system that has no locks for HDF5.
-        with tempfile.TemporaryDirectory() as folder:
-            return _load(shutil.copy2(path, folder))
-
-
-def _load(path: str | Path) -> xr.Dataset:
-    with xr.open_dataset(path, engine="netcdf4") as stored:
-        return stored.load()
-
-
-def open_artifact(path: str | Path) -> xr.Dataset:
-    """Load an artifact of the workflow, or a file of the command, into memory.
-
-    Flags are named, complex numbers in one piece; units stand in the attributes, angles in degrees
-    unless these say radians.
-
-    Raises
-    ------
-    OSError
-        If it is missing or not a netCDF file.
-    """
-    return decoded(open_stored(path))
+def _fill(dataset: CfDataset, attributes: Mapping[str, Any], path: Path) -> None:
+    with netCDF4.Dataset(path, "w", format="NETCDF4") as file:
+        file.setncatts(attributes)
+        for name, (dimensions, values, described) in (dataset.coordinates | dataset.data).items():
+            values = np.asarray(values)
+            words = values.dtype.kind in "UO"
+            for dimension, size in zip(dimensions, values.shape, strict=True):
+                if dimension not in file.dimensions:
+                    file.createDimension(dimension, size)
+            beside = [
+                other
+                for other, (over, _, _) in dataset.coordinates.items()
+                if other not in over and set(over) <= set(dimensions)
+            ]
+            if name in dataset.data and beside:
+                described = described | {"coordinates": " ".join(beside)}
+            stored = file.createVariable(name, str if words else values.dtype, dimensions)
+            stored.setncatts(described)
+            stored[...] = values.astype(object) if words else values

@@ -1,16 +1,37 @@
-"""From a result and a table that describes it to a dataset of CF variables."""
+"""From a result and a table that describes it to the variables of a CF file."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from hopper.quantity import Quantity
 from hopper_data.tables import Variable, number, parts
 
 CfVariable = tuple[tuple[str, ...], Any, dict[str, Any]]
+
+
+@dataclass(frozen=True)
+class CfDataset:
+    """What a CF file holds, as xarray.Dataset takes it; xarray takes half a second to import.
+
+    Attributes
+    ----------
+    data, coordinates : dict
+        Dimensions, values and attributes of each variable: flags are codes, complex numbers in two
+        parts.
+    attributes : mapping
+        Of the whole file.
+    """
+
+    data: dict[str, CfVariable]
+    coordinates: dict[str, CfVariable]
+    attributes: Mapping[str, Any]
+
+    def __repr__(self) -> str:
+        """Return how many variables there are, and over what."""
+        return f"CfDataset({len(self.data)} variables over {', '.join(self.coordinates) or 'none'})"
 
 
 def dataset(
@@ -19,8 +40,8 @@ def dataset(
     coordinates: Iterable[Variable] = (),
     leading: str = "",
     attributes: Mapping[str, Any] | None = None,
-) -> xr.Dataset:
-    """Return a dataset in the form of CF files: flags as codes, complex numbers in two parts.
+) -> CfDataset:
+    """Return the variables of a result.
 
     What is None in the result is left out; a quantity is followed by its error.
 
@@ -36,7 +57,7 @@ def dataset(
         Global attributes.
     """
     data = _variables(result, table, tuple(leading.split()))
-    return xr.Dataset(data, _variables(result, coordinates, ()), attributes)
+    return CfDataset(data, _variables(result, coordinates, ()), attributes or {})
 
 
 def _variables(

@@ -21,9 +21,10 @@ from hopper.stability.convergence_filter import FilteredSpectrum
 from hopper.stability.mesh_spectrum import MeshSpectrum
 from hopper.stability.modes import LinearStability
 from hopper_data import assessments, cf, domain, radial, stability
-from hopper_data.datasets import dataset
+from hopper_data.datasets import CfDataset, dataset
 from hopper_data.decoding import decoded
 from hopper_data.inputs import Case
+from hopper_data.reading import as_xarray
 from hopper_data.tables import Table
 
 TABLES: dict[type, tuple[Table, Table]] = {
@@ -58,10 +59,10 @@ def to_dataset(result: Any) -> xr.Dataset:
     TypeError
         If it is none of these.
     """
-    return decoded(stored_form(result))
+    return decoded(as_xarray(stored_form(result)))
 
 
-def stored_form(result: Any) -> xr.Dataset:
+def stored_form(result: Any) -> CfDataset:
     """Return the same as CF files hold it: flags as codes, complex numbers in two parts."""
     if isinstance(result, Assessment | assessments.Part):
         attributes = assessments.comment(result) if isinstance(result, Assessment) else None

@@ -5,16 +5,18 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from hopper_data import cf
+from hopper_data.datasets import CfDataset, CfVariable
 
 
 def write(path: Path, titles: Sequence[str], rows: Sequence[Mapping[str, Any]]) -> None:
     """Write a variable over ``row`` for each title: numbers where all cells are, else texts."""
-    variables = {title: ("row", _column([row[title] for row in rows])) for title in titles}
+    variables: dict[str, CfVariable] = {
+        title: (("row",), _column([row[title] for row in rows]), {}) for title in titles
+    }
     cf.write(
-        xr.Dataset(variables),
+        CfDataset(variables, {}, {}),
         path,
         title="Answers about a list of hoppers",
         equations="(2.8)-(2.15), (3.1)-(3.5), (4.1), (4.2)",

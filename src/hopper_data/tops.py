@@ -104,9 +104,9 @@ def _numbers(path: Path, name: str, cells: list[list[str]]) -> Array:
 
 
 def _dataset(path: Path) -> dict[str, tuple[Array, str]]:
-    from hopper_data import cf
+    from hopper_data import reading
 
-    data = cf.open_stored(path)
+    data = reading.open_stored(path)
     _require_columns(path, [str(name) for name in data.variables])
     return {
         name: (

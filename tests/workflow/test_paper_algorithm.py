@@ -11,6 +11,7 @@ from hopper_workflow import artifacts, paper_checks, ranges
 from compute_friction_curve import compute_friction_curve
 from compute_paper_border import compute_paper_border
 from hopper import Hopper, friction_limit, linear_stability, solve_radial
+from hopper_data.reading import as_xarray
 
 MESHES: dict[str, Any] = {"nodes": 400, "coarse_nodes": 200, "tolerance": 1e-3}
 
@@ -42,8 +43,10 @@ def test_a_radial_solution_that_is_not_resolved_leaves_a_gap_and_its_reason():
 
 
 def test_a_curve_to_the_limit_ends_where_the_fold_is_neutral():
-    data = compute_friction_curve(
-        geometry="cone", half_angle_deg=30, deltas_deg=[35], mu={"stop": "limit", "points": 9}
+    data = as_xarray(
+        compute_friction_curve(
+            geometry="cone", half_angle_deg=30, deltas_deg=[35], mu={"stop": "limit", "points": 9}
+        )
     )
     limit = tan(friction_limit(Hopper("cone", radians(35), radians(30))).friction_angle)
     assert float(data.limit_mu[0]) == pytest.approx(limit, rel=1e-12)
@@ -55,8 +58,10 @@ def test_a_curve_to_the_limit_ends_where_the_fold_is_neutral():
 
 
 def test_a_curve_that_reaches_its_limit_before_the_range_does_ends_there():
-    data = compute_friction_curve(
-        geometry="cone", half_angle_deg=30, deltas_deg=[35, 25], mu={"stop": 0.35, "points": 5}
+    data = as_xarray(
+        compute_friction_curve(
+            geometry="cone", half_angle_deg=30, deltas_deg=[35, 25], mu={"stop": 0.35, "points": 5}
+        )
     )
     assert float(data.mu[0, -1]) == pytest.approx(float(data.limit_mu[0]), rel=2e-10)
     np.testing.assert_allclose(data.mu[1], np.linspace(0, 0.35, 5), rtol=1e-12)
@@ -66,13 +71,15 @@ def test_the_papers_border_has_a_sign_change_and_a_jump(monkeypatch):
     """Cone 30 deg at phi = 10 deg, where its abscissa jumps from .068 upwards near 30.1 deg."""
     border = xr.Dataset({"neutral_phi": ("point", [0.0, 20.0])})
     monkeypatch.setattr(artifacts, "read", lambda _: border)
-    data = compute_paper_border(
-        "",
-        half_angle_deg=30,
-        frictions=2,
-        delta_deg={"start": 28, "stop": 32, "step": 2},
-        width_deg=0.01,
-        **MESHES,
+    data = as_xarray(
+        compute_paper_border(
+            "",
+            half_angle_deg=30,
+            frictions=2,
+            delta_deg={"start": 28, "stop": 32, "step": 2},
+            width_deg=0.01,
+            **MESHES,
+        )
     )
     data = data.isel(change=data.change_phi == 10)
     assert data.sizes["change"] == 2

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
-from scipy.special import ndtr, ndtri, stdtrit
-from scipy.stats import qmc
+import scipy
 
 from hopper.arguments import RealLike, checked
 from hopper.arrays import Array
@@ -49,7 +48,7 @@ def points_in_box(dimensions: int, power: int) -> Array:
             f"dimensions = {dimensions} or power = {power} is out of range: give 1 to 16, 0 to 16"
         )
     each = (
-        qmc.Sobol(dimensions, bits=_BITS, seed=np.random.default_rng([_SEED, number]))
+        scipy.stats.qmc.Sobol(dimensions, bits=_BITS, seed=np.random.default_rng([_SEED, number]))
         for number in range(SHIFTS)
     )
     # In the middle of what the last bit is worth: never 0, of which no normal value is finite.
@@ -73,7 +72,7 @@ def normal_points(points: RealLike, possible: RealLike) -> Array:
         raise InvalidParameterError(
             f"points have the shape {np.shape(points)}: give {low.size} coordinates to each"
         )
-    return (1 + ndtri(low + np.asarray(points) * (high - low))) / 2
+    return (1 + scipy.special.ndtri(low + np.asarray(points) * (high - low))) / 2
 
 
 @checked
@@ -88,7 +87,7 @@ def _chances(possible: RealLike) -> tuple[Array, Array]:
     ends = np.asarray(possible, dtype=float)
     if ends.ndim != 2 or ends.shape[1] != 2:
         raise InvalidParameterError(f"possible has the shape {ends.shape}: give (d, 2)")
-    low, high = ndtr(2 * ends.T - 1)
+    low, high = scipy.special.ndtr(2 * ends.T - 1)
     return low, high
 
 
@@ -116,7 +115,7 @@ def shares(labels: Callable[[Array], Iterable[str]], points: RealLike) -> dict[s
 
 def _share(values: Sequence[float], each: int) -> Share:
     shifts = len(values)
-    factor = float(stdtrit(shifts - 1, (1 + _CONFIDENCE) / 2))
+    factor = float(scipy.special.stdtrit(shifts - 1, (1 + _CONFIDENCE) / 2))
     scatter = factor * float(np.std(values, ddof=1)) / sqrt(shifts)
     # A few shifts may agree by chance: each may have counted a point too many.
     return Share(float(np.mean(values)), max(scatter, 1 / (each * sqrt(shifts))))

@@ -1,0 +1,52 @@
+"""netCDF files of the workflow and the command, read as xarray datasets."""
+
+import shutil
+import tempfile
+from pathlib import Path
+
+import xarray as xr
+
+from hopper_data.datasets import CfDataset
+from hopper_data.decoding import decoded
+
+
+def as_xarray(dataset: CfDataset) -> xr.Dataset:
+    """Return the variables of a file as a dataset, as :func:`open_stored` would."""
+    return xr.Dataset(dataset.data, dataset.coordinates, dataset.attributes)
+
+
+def open_stored(path: str | Path) -> xr.Dataset:
+    """Load a netCDF file into memory as it is stored: flags as codes, complex numbers in two parts.
+
+    Raises
+    ------
+    OSError
+        If it is missing or not a netCDF file.
+    """
+    try:
+        return _load(path)
+    except OSError:
+        if not Path(path).is_file():
+            raise
+        # Not a netCDF file, or one on a file system that has no locks for HDF5.
+        with tempfile.TemporaryDirectory() as folder:
+            return _load(shutil.copy2(path, folder))
+
+
+def _load(path: str | Path) -> xr.Dataset:
+    with xr.open_dataset(path, engine="netcdf4") as stored:
+        return stored.load()
+
+
+def open_artifact(path: str | Path) -> xr.Dataset:
+    """Load an artifact of the workflow, or a file of the command, into memory.
+
+    Flags are named, complex numbers in one piece; units stand in the attributes, angles in degrees
+    unless these say radians.
+
+    Raises
+    ------
+    OSError
+        If it is missing or not a netCDF file.
+    """
+    return decoded(open_stored(path))
