@@ -16,8 +16,8 @@ import numpy as np
 from hopper.arguments import Radians, RealRow, checked
 from hopper.arrays import Array
 from hopper.assessment.propagation import ROUNDING
-from hopper.assessment.stability import abscissa_with_error
 from hopper.brief import brief
+from hopper.design.neutral import last_run, neutral_between
 from hopper.domain.stability_map import sweep_friction
 from hopper.errors import HopperError, InvalidParameterError, NoRadialSolutionError
 from hopper.problem import Geometry, Hopper
@@ -34,7 +34,6 @@ from hopper.radial.mass_flow import (
 )
 from hopper.radial.members import physical_member
 from hopper.radial.solution import solution_of, solve_radial
-from hopper.roots import root_between
 from hopper.stability.modes import linear_stability
 
 _Found = TypeVar("_Found")
@@ -250,27 +249,22 @@ def _stable(hopper: Hopper, limit: Quantity) -> tuple[Quantity | None, Quantity 
     def abscissa(phi: float) -> float:
         return linear_stability(solve_radial(hopper, phi)).abscissa
 
-    def root(low: float, high: float) -> Quantity:
-        found = root_between(abscissa, low, high, xtol=_ROOT)
-        _, here = abscissa_with_error(solve_radial(hopper, found))
-        slope = abs(abscissa(found - _STEP) - here.value) / _STEP
-        return Quantity(found, (abs(here.value) + here.error) / slope + _ROOT)
+    def root(low: float, high: float) -> Quantity | None:
+        return _or_none(lambda: neutral_between(partial(solve_radial, hopper), low, high, _ROOT))
 
     phis = limit.value * _LOOKED_AT
     values = sweep_friction(hopper, phis).abscissa
     phis, values = _with_lowest(abscissa, phis, values)
-    (stable,) = np.nonzero(values < 0)
-    if not stable.size:
+    run = last_run(values < 0)
+    if run is None:
         return None, None
-    first = last = int(stable[-1])
-    while first and values[first - 1] < 0:
-        first -= 1
-    low = _or_none(lambda: root(*phis[first - 1 : first + 1])) if first else None
+    first, last = run
+    low = root(*phis[first - 1 : first + 1]) if first else None
     if last + 1 == phis.size:  # at a fold a mode is neutral
         return low, limit
     if np.isnan(values[last + 1]):
         return low, None
-    return low, _or_none(lambda: root(*phis[last : last + 2]))
+    return low, root(*phis[last : last + 2])
 
 
 def _with_lowest(

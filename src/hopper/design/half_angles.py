@@ -11,11 +11,10 @@ from typing import Literal, TypeVar, get_args
 import numpy as np
 
 from hopper.arguments import checked
-from hopper.arrays import Array
 from hopper.assessment.propagation import ROUNDING
-from hopper.assessment.stability import abscissa_with_error
 from hopper.brief import brief
 from hopper.design.material import NARROWEST, Material
+from hopper.design.neutral import last_run, neutral_between
 from hopper.errors import (
     ConvergenceError,
     HopperError,
@@ -253,23 +252,24 @@ def _stable(
         return linear_stability(material.solution(half_angle), disturbances).abscissa
 
     def root(low: float, high: float) -> Quantity:
-        found = root_between(abscissa, low, high, xtol=_ROOT)
-        _, here = abscissa_with_error(material.solution(found), disturbances)
-        slope = abs(abscissa(found - _STEP) - here.value) / _STEP
-        return Quantity(found, (abs(here.value) + here.error) / slope + _ROOT)
+        return neutral_between(material.solution, low, high, _ROOT, disturbances)
 
     end = _widest_solved(material, limit.value) if limit else WIDEST
     angles = np.linspace(NARROWEST, end, _SAMPLES)
     values = np.array([_or_nan(abscissa, angle) for angle in angles.tolist()])
-    first, last = _last_run(values)
+    run = last_run(values < 0)
+    if run is None:
+        known = "" if np.isfinite(values).all() else " of those resolved"
+        raise NowhereError(f"no half angle is stable{known}")
+    first, last = run
     least = root(angles[first - 1], angles[first]) if first and values[first - 1] >= 0 else None
     if last + 1 < angles.size and not isnan(values[last + 1]):
         return least, root(angles[last], angles[last + 1])
-    known = degrees(angles[last])
+    widest = degrees(angles[last])
     if last + 1 < angles.size:
-        raise ConvergenceError(f"stable up to {known:.4g} deg at least; not resolved beyond")
+        raise ConvergenceError(f"stable up to {widest:.4g} deg at least; not resolved beyond")
     if limit is None:
-        raise NoLimitError(f"stable up to {known:.4g} deg, the widest looked at")
+        raise NoLimitError(f"stable up to {widest:.4g} deg, the widest looked at")
     return least, limit
 
 
@@ -278,15 +278,3 @@ def _or_nan(function: Callable[[float], float], half_angle: float) -> float:
         return function(half_angle)
     except HopperError:
         return nan
-
-
-def _last_run(values: Array) -> tuple[int, int]:
-    """Return the first and last index of the last run of negative values."""
-    (stable,) = np.nonzero(values < 0)
-    if not stable.size:
-        known = np.isfinite(values).all()
-        raise NowhereError("no half angle is stable" + ("" if known else " of those resolved"))
-    last = first = int(stable[-1])
-    while first > 0 and values[first - 1] < 0:
-        first -= 1
-    return first, last
