@@ -1,0 +1,82 @@
+"""Build the site: put its pages together, and run Sphinx, to which a warning is an error."""
+
+import csv
+import hashlib
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from hopper_workflow import configuration, effective, strict_yaml
+from hopper_workflow.publish import run
+from hopper_workflow.site import api, gallery, notebooks, reference, texts, works
+from hopper_workflow.site.source import SiteError, Source
+
+WORK, SITE = Path(".site"), Path("results/site")
+SCHEMA = Path("workflow/schemas/config.schema.yaml")
+_CAUSES = ("config.yaml", "Snakefile", "workflow/**/*.smk", "scripts/*.py")
+
+
+def main() -> None:
+    """Build the site in the current directory."""
+    given = run.configuration()
+    config = _config(given)
+    summary = _summary(given)
+    drawn = all(Path(path).exists() for path in summary if path.endswith(".png"))
+    if not drawn:
+        print("Figures are missing, so the site has text alone: make them with: make", flush=True)
+    source, root = Source(WORK / "source"), Path.cwd()
+    texts.write(source, root)
+    reference.write(source, root)
+    gallery.write(source, root, config, summary, drawn=drawn)
+    api.write(source, root)
+    works.write(source, root)
+    notebooks.write(source, root, WORK / "notebooks")
+    source.finish()
+    _sphinx()
+    print(SITE / "index.html")
+
+
+def _config(given: Path | None) -> dict[str, Any]:
+    """Return the whole configuration of the run, defaults included."""
+    config = effective.merged(given, SCHEMA) if given else strict_yaml.read("config.yaml")
+    configuration.check(config, SCHEMA)
+    configuration.bring_up_to_date(config, SCHEMA)
+    return config
+
+
+def _summary(given: Path | None) -> dict[str, Mapping[str, str]]:
+    """Return Snakemake's summary by output file; asked for anew if what it follows from changed."""
+    causes = sorted(path for pattern in _CAUSES for path in Path().glob(pattern))
+    text = b"".join(path.read_bytes() for path in [*causes, *filter(None, [given])])
+    kept = WORK / f"summary-{hashlib.sha256(text).hexdigest()[:16]}.json"
+    if not kept.exists():
+        table = run.snakemake(given, "--detailed-summary")
+        rows = {
+            row["output_file"]: row for row in csv.DictReader(table.splitlines(), delimiter="\t")
+        }
+        WORK.mkdir(exist_ok=True)
+        for old in WORK.glob("summary-*.json"):
+            old.unlink()
+        kept.write_text(json.dumps(rows), encoding="utf-8")
+    found: dict[str, Mapping[str, str]] = json.loads(kept.read_text(encoding="utf-8"))
+    return found
+
+
+def _sphinx() -> None:
+    command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html"]
+    command += ["-c", "docs/site", "-d", str(WORK / "doctrees"), str(WORK / "source"), str(SITE)]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(["scripts", "src"])}
+    done = subprocess.run(command, env=environment, check=False)
+    if done.returncode != 0:
+        raise SiteError("a warning of Sphinx above is an error: mend what it names")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except (SiteError, run.RunError, OSError) as error:
+        sys.exit(f"{SITE} not built: {error}")

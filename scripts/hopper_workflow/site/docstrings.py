@@ -1,0 +1,42 @@
+"""Docstrings as reStructuredText, in which bars, works and formulas would mean something else."""
+
+import re
+from typing import Any
+
+_CITATION = re.compile(r"[.][.] (\[\w+\])")
+_REFERENCE = re.compile(r"(\[\w+\])_")
+_CODE = re.compile(r"(``.*?``)")
+_NAME = re.compile(r"(?<![`:])`([^`]+)`(?!`)")
+
+
+def mended(lines: list[str]) -> list[str]:
+    """Return the lines of a docstring with formulas kept as set, bars as bars, works as a list."""
+    found: list[str] = []
+    literal = False
+    before = ""
+    for line in lines:
+        indented = line.startswith("    ")
+        if line and not indented:
+            literal = False
+        elif indented and found and not found[-1] and not before.startswith(" "):
+            literal = True
+            found += ["::", ""]
+        if line:
+            before = line
+        found.append(line if literal else _escaped(_CITATION.sub(r"*  **\1**", line)))
+    return found
+
+
+def _escaped(line: str) -> str:
+    parts = _CODE.split(_NAME.sub(r"``\1``", _REFERENCE.sub(r"\1", line)))
+    return "".join(part if part.startswith("``") else part.replace("|", r"\|") for part in parts)
+
+
+def _process(app: Any, what: str, name: str, value: Any, options: Any, lines: list[str]) -> None:
+    lines[:] = mended(lines)
+
+
+def setup(app: Any) -> dict[str, bool]:
+    """Register with Sphinx, ahead of the extension that reads the sections of docstrings."""
+    app.connect("autodoc-process-docstring", _process, priority=100)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,141 @@
+"""The gallery: a page for each figure, with all that it is made from."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import jinja2
+import yaml
+
+from hopper_workflow import entries
+from hopper_workflow.site.source import Source, heading
+
+# Sections of the configuration that figures of no section of their own follow from.
+_SECTIONS = {
+    "fig_jenike": ("fig_jenike",),
+    "fig_4_1": ("smooth_wall",),
+    "fig_resolvent": ("sensitivity",),
+    "fig_4_5": ("stability_map", "borders", "paper_border"),
+    "fig_4_5_map": ("stability_map", "fig_4_5_map"),
+    "fig_vm_types": ("von_mises",),
+    "fig_vm_decay": ("von_mises",),
+    "fig_models_stability": ("von_mises", "borders"),
+}
+_DATA = (".nc", ".csv")
+
+
+@dataclass(frozen=True)
+class Made:
+    """How the workflow makes a figure: its rule, and the files of data it reads."""
+
+    rule: str
+    data: list[str]
+
+
+def made(summary: Mapping[str, Mapping[str, str]], figure: str) -> Made:
+    """Return how a figure is made, from Snakemake's summary by output file."""
+    row = summary[f"figures/{figure}.png"]
+    data = [path for path in row["input-file(s)"].split(",") if path.endswith(_DATA)]
+    return Made(row["rule"], sorted(data))
+
+
+def write(
+    source: Source,
+    root: Path,
+    config: Mapping[str, Any],
+    summary: Mapping[str, Mapping[str, str]],
+    *,
+    drawn: bool,
+) -> None:
+    """Write the gallery; if the figures are not ``drawn`` yet, their pages have text alone."""
+    names = []
+    for drawing in entries.drawings(config):
+        how = made(summary, drawing.figure)
+        for path in (
+            [f"figures/{drawing.figure}.{kind}" for kind in ("png", "pdf")] if drawn else ()
+        ):
+            source.copy(path, root / path)
+        for path in how.data:
+            if (root / path).exists():
+                source.copy(path, root / path)
+        source.write(f"gallery/{drawing.figure}.rst", _page(root, config, drawing, how, drawn))
+        names.append(drawing.figure)
+    source.write("gallery/index.rst", _index(names, drawn))
+
+
+def title_of(figure: str) -> str:
+    """Return the title of a figure's page."""
+    number = entries.number_of(figure)
+    return f"Figure {number}" if number[0].isdigit() else number.capitalize()
+
+
+def _index(names: list[str], drawn: bool) -> str:
+    lines = [heading("Gallery"), "Every figure, with its caption and all that it is made from.\n"]
+    if drawn:
+        lines.append(".. rst-class:: gallery\n")
+        for name in names:
+            lines.append(
+                f".. figure:: /figures/{name}.png\n   :target: {name}.html\n   :alt: {name}\n\n"
+                f"   :doc:`{name}`\n"
+            )
+    lines.append(".. toctree::\n   :maxdepth: 1\n" + ("   :hidden:\n" if drawn else "") + "")
+    lines += [f"   {name}" for name in names]
+    return "\n".join(lines) + "\n"
+
+
+def _page(
+    root: Path, config: Mapping[str, Any], drawing: entries.Drawing, how: Made, drawn: bool
+) -> str:
+    figure = drawing.figure
+    lines = [f".. _{figure}:\n", heading(title_of(figure))]
+    if drawn:
+        lines.append(f".. image:: /figures/{figure}.png\n   :alt: {title_of(figure)}\n")
+    else:
+        lines.append(f"*Not drawn yet*: ``make figures/{figure}.png`` draws it.\n")
+    lines.append(caption(root, config, drawing, how) + "\n")
+    lines.append(heading("What it is made from", "-"))
+    lines.append(f":Target: ``make figures/{figure}.png``")
+    lines.append(f":Rule: ``{how.rule}``, in ``workflow/rules``")
+    lines.append(f":Script: ``scripts/{how.rule}.py``")
+    for path in how.data:
+        there = (root / path).exists()
+        lines.append(f":Data: :download:`{path} </{path}>`" if there else f":Data: ``{path}``")
+    if drawn:
+        lines.append(f":Print: :download:`{figure}.pdf </figures/{figure}.pdf>`")
+    lines.append(":Configuration: :doc:`all keys </configuration>`; here:\n")
+    lines.append("   .. code-block:: yaml\n")
+    text = yaml.safe_dump(_entry(config, drawing), sort_keys=False, default_flow_style=None)
+    lines += [f"      {line}" for line in text.splitlines()]
+    return "\n".join(lines) + "\n"
+
+
+def _entry(config: Mapping[str, Any], drawing: entries.Drawing) -> dict[str, Any]:
+    """Return the part of the configuration that a figure is about."""
+    if not drawing.key:
+        sections = _SECTIONS.get(drawing.figure, (drawing.figure.removeprefix("fig_"),))
+        known = [name for name in (*sections, drawing.figure) if name in config]
+        return {name: config[name] for name in known}
+    if drawing.kind == "case":
+        return {"cases": [case for case in config["cases"] if case["name"] == drawing.entry]}
+    section = drawing.key.partition(".")[0]
+    return {section: {drawing.entry: config[section][drawing.entry]}}
+
+
+def caption(root: Path, config: Mapping[str, Any], drawing: entries.Drawing, how: Made) -> str:
+    """Return the caption of the report, with the numbers of the configuration."""
+    own = next(iter(_entry(config, drawing).values()))
+    if drawing.kind == "case":
+        own = {"case": own[0]}
+    elif drawing.key:
+        own = own[drawing.entry]
+    name = "case" if drawing.kind == "case" else how.rule.removeprefix("plot_")
+    text = (root / f"workflow/report/{name}.rst").read_text(encoding="utf-8")
+    job = SimpleNamespace(
+        config=config,
+        wildcards=SimpleNamespace(figure=drawing.entry, case=drawing.entry),
+        params=dict(own, stagnant_from_deg=config["fig_3_2"]["stagnant_from_deg"]),
+    )
+    environment = jinja2.Environment(undefined=jinja2.StrictUndefined)
+    return environment.from_string(text).render(snakemake=job).strip()
