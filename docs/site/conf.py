@@ -27,6 +27,9 @@ python_use_unqualified_type_names = True
 add_module_names = False
 toc_object_entries = False
 
+# Attributes of several results have the same name, and need no link.
+suppress_warnings = ["ref.python"]
+
 html_theme = "furo"
 html_title = "hopper"
 html_static_path = ["static"]

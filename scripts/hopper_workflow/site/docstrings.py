@@ -5,8 +5,8 @@ from typing import Any
 
 _CITATION = re.compile(r"[.][.] (\[\w+\])")
 _REFERENCE = re.compile(r"(\[\w+\])_")
-_CODE = re.compile(r"(``.*?``)")
-_NAME = re.compile(r"(?<![`:])`([^`]+)`(?!`)")
+_CODE = re.compile(r"(``.*?``|:\w+:`[^`]*`)")
+_NAME = re.compile(r"`([^`]+)`")
 
 
 def mended(lines: list[str]) -> list[str]:
@@ -28,8 +28,12 @@ def mended(lines: list[str]) -> list[str]:
 
 
 def _escaped(line: str) -> str:
-    parts = _CODE.split(_NAME.sub(r"``\1``", _REFERENCE.sub(r"\1", line)))
-    return "".join(part if part.startswith("``") else part.replace("|", r"\|") for part in parts)
+    """Return a line with bars, names and citations as they are read in a terminal."""
+    parts = _CODE.split(line)
+    for index in range(0, len(parts), 2):
+        text = _REFERENCE.sub(r"\1", parts[index]).replace("|", r"\|")
+        parts[index] = _NAME.sub(r"``\1``", text)
+    return "".join(parts)
 
 
 def _process(app: Any, what: str, name: str, value: Any, options: Any, lines: list[str]) -> None:

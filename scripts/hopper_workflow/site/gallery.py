@@ -1,5 +1,6 @@
 """The gallery: a page for each figure, with all that it is made from."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -50,65 +51,76 @@ def write(
     drawn: bool,
 ) -> None:
     """Write the gallery; if the figures are not ``drawn`` yet, their pages have text alone."""
-    names = []
+    titles = {}
     for drawing in entries.drawings(config):
-        how = made(summary, drawing.figure)
-        for path in (
-            [f"figures/{drawing.figure}.{kind}" for kind in ("png", "pdf")] if drawn else ()
-        ):
+        figure, how = drawing.figure, made(summary, drawing.figure)
+        for path in [f"figures/{figure}.{kind}" for kind in ("png", "pdf")] if drawn else ():
             source.copy(path, root / path)
         for path in how.data:
             if (root / path).exists():
                 source.copy(path, root / path)
-        source.write(f"gallery/{drawing.figure}.rst", _page(root, config, drawing, how, drawn))
-        names.append(drawing.figure)
-    source.write("gallery/index.rst", _index(names, drawn))
+        words = caption(root, config, drawing, how)
+        titles[figure] = title_of(figure, words)
+        lines = _picture(figure, titles[figure], drawn=drawn)
+        lines += [words + "\n", *_made_from(root, config, drawing, how, drawn=drawn)]
+        source.write(f"gallery/{figure}.rst", "\n".join(lines) + "\n")
+    source.write("gallery/index.rst", _index(titles, drawn=drawn))
 
 
-def title_of(figure: str) -> str:
-    """Return the title of a figure's page."""
+def title_of(figure: str, words: str) -> str:
+    """Return the title of a figure's page: its number, or else what its caption begins with."""
     number = entries.number_of(figure)
-    return f"Figure {number}" if number[0].isdigit() else number.capitalize()
+    if number[0].isdigit():
+        return f"Figure {number}"
+    bold = re.match(r"[*][*](.+?)[.]?[*][*]", words, flags=re.DOTALL)
+    return " ".join(bold[1].split()) if bold else number.capitalize()
 
 
-def _index(names: list[str], drawn: bool) -> str:
+def _index(titles: Mapping[str, str], *, drawn: bool) -> str:
+    """Return the page of all figures: those of the paper first."""
+    names = sorted(titles, key=lambda name: (not titles[name].startswith("Figure"), titles[name]))
     lines = [heading("Gallery"), "Every figure, with its caption and all that it is made from.\n"]
     if drawn:
-        lines.append(".. rst-class:: gallery\n")
+        lines.append(".. container:: gallery\n")
         for name in names:
             lines.append(
-                f".. figure:: /figures/{name}.png\n   :target: {name}.html\n   :alt: {name}\n\n"
-                f"   :doc:`{name}`\n"
+                f"   .. figure:: /figures/{name}.png\n      :target: {name}.html\n"
+                f"      :alt: {titles[name]}\n\n      :doc:`{name}`\n"
             )
-    lines.append(".. toctree::\n   :maxdepth: 1\n" + ("   :hidden:\n" if drawn else "") + "")
-    lines += [f"   {name}" for name in names]
+    hidden = "   :hidden:\n" if drawn else ""
+    lines += [f".. toctree::\n   :maxdepth: 1\n{hidden}", *(f"   {name}" for name in names)]
     return "\n".join(lines) + "\n"
 
 
-def _page(
-    root: Path, config: Mapping[str, Any], drawing: entries.Drawing, how: Made, drawn: bool
-) -> str:
+def _picture(figure: str, title: str, *, drawn: bool) -> list[str]:
+    """Return the beginning of a figure's page."""
+    image = f".. image:: /figures/{figure}.png\n   :alt: {title}\n"
+    missing = f"*Not drawn yet*: ``make figures/{figure}.png`` draws it.\n"
+    return [f".. _{figure}:\n", heading(title), image if drawn else missing]
+
+
+def _made_from(
+    root: Path, config: Mapping[str, Any], drawing: entries.Drawing, how: Made, *, drawn: bool
+) -> list[str]:
+    """Return what a figure is made from: rule, script, data, configuration."""
     figure = drawing.figure
-    lines = [f".. _{figure}:\n", heading(title_of(figure))]
-    if drawn:
-        lines.append(f".. image:: /figures/{figure}.png\n   :alt: {title_of(figure)}\n")
-    else:
-        lines.append(f"*Not drawn yet*: ``make figures/{figure}.png`` draws it.\n")
-    lines.append(caption(root, config, drawing, how) + "\n")
-    lines.append(heading("What it is made from", "-"))
-    lines.append(f":Target: ``make figures/{figure}.png``")
-    lines.append(f":Rule: ``{how.rule}``, in ``workflow/rules``")
-    lines.append(f":Script: ``scripts/{how.rule}.py``")
+    lines = [
+        heading("What it is made from", "-"),
+        f":Target: ``make figures/{figure}.png``",
+        f":Rule: ``{how.rule}``, in ``workflow/rules``",
+        f":Script: ``scripts/{how.rule}.py``",
+    ]
+    if how.data:
+        lines.append(":Data:")
     for path in how.data:
         there = (root / path).exists()
-        lines.append(f":Data: :download:`{path} </{path}>`" if there else f":Data: ``{path}``")
+        lines.append(f"   - :download:`{path} </{path}>`" if there else f"   - ``{path}``")
     if drawn:
         lines.append(f":Print: :download:`{figure}.pdf </figures/{figure}.pdf>`")
     lines.append(":Configuration: :doc:`all keys </configuration>`; here:\n")
     lines.append("   .. code-block:: yaml\n")
     text = yaml.safe_dump(_entry(config, drawing), sort_keys=False, default_flow_style=None)
-    lines += [f"      {line}" for line in text.splitlines()]
-    return "\n".join(lines) + "\n"
+    return [*lines, *(f"      {line}" for line in text.splitlines())]
 
 
 def _entry(config: Mapping[str, Any], drawing: entries.Drawing) -> dict[str, Any]:

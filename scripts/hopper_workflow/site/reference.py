@@ -33,7 +33,7 @@ def write(source: Source, root: Path) -> None:
 def configuration(schema: Mapping[str, Any]) -> str:
     """Return the keys of the configuration, from its schema."""
     lines = [
-        "# Configuration",
+        "# Keys of the configuration",
         "",
         "Every key of `config.yaml`, from `workflow/schemas/config.schema.yaml`, which a run is "
         "checked against before any job starts. `NAME` stands for a name of your own, `[]` for "
