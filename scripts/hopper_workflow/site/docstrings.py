@@ -1,6 +1,10 @@
 """Docstrings as reStructuredText, in which bars, works and formulas would mean something else."""
 
+import ast
+import inspect
 import re
+import textwrap
+from dataclasses import is_dataclass
 from typing import Any
 
 _CITATION = re.compile(r"[.][.] (\[\w+\])")
@@ -40,7 +44,33 @@ def _process(app: Any, what: str, name: str, value: Any, options: Any, lines: li
     lines[:] = mended(lines)
 
 
+def signature(value: Any) -> tuple[str, str | None] | None:
+    """Return arguments and result in the words of the source, ``Radians`` and ``RealLike``.
+
+    None if there is no source, as of what other classes hand down.
+    """
+    try:
+        source = inspect.getsource(inspect.unwrap(value))
+        node = ast.parse(textwrap.dedent(source)).body[0]
+    except (OSError, TypeError):
+        return None
+    if isinstance(node, ast.ClassDef) and is_dataclass(value):
+        fields = [ast.unparse(one) for one in node.body if isinstance(one, ast.AnnAssign)]
+        return f"({', '.join(fields)})", None
+    if not isinstance(node, ast.FunctionDef):
+        return None
+    every = node.args.posonlyargs + node.args.args
+    if every and every[0].arg in ("self", "cls"):
+        (node.args.posonlyargs or node.args.args).pop(0)
+    return f"({ast.unparse(node.args)})", node.returns and ast.unparse(node.returns)
+
+
+def _sign(app: Any, what: str, name: str, value: Any, options: Any, call: Any, gives: Any) -> Any:
+    return signature(value) if what in ("function", "method", "class") else None
+
+
 def setup(app: Any) -> dict[str, bool]:
     """Register with Sphinx, ahead of the extension that reads the sections of docstrings."""
     app.connect("autodoc-process-docstring", _process, priority=100)
+    app.connect("autodoc-process-signature", _sign)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

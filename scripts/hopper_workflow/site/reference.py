@@ -20,6 +20,7 @@ _RANGE = {
     "minItems": "at least {} values",
     "maxItems": "at most {} values",
 }
+_KINDS = {"array": "list", "object": "keys below", "boolean": "true or false"}
 
 
 def write(source: Source, root: Path) -> None:
@@ -92,7 +93,8 @@ def _values(schema: Mapping[str, Any], entry: Mapping[str, Any]) -> str:
     if "const" in entry or "enum" in entry:
         return ", ".join(f"`{value}`" for value in entry.get("enum", [entry.get("const")]))
     kind = entry.get("type", "")
-    words = [" or ".join(kind) if isinstance(kind, list) else kind]
+    kinds = [kind] if isinstance(kind, str) else kind
+    words = [" or ".join(_KINDS.get(one, one) for one in kinds)]
     words += [text.format(_number(entry[key])) for key, text in _RANGE.items() if key in entry]
     if kind == "array" and "items" in entry:
         items = _resolved(schema, entry["items"])
