@@ -62,7 +62,7 @@ def signature(value: Any) -> tuple[str, str | None] | None:
     every = node.args.posonlyargs + node.args.args
     if every and every[0].arg in ("self", "cls"):
         (node.args.posonlyargs or node.args.args).pop(0)
-    return f"({ast.unparse(node.args)})", node.returns and ast.unparse(node.returns)
+    return f"({ast.unparse(node.args)})", ast.unparse(node.returns) if node.returns else None
 
 
 def _sign(app: Any, what: str, name: str, value: Any, options: Any, call: Any, gives: Any) -> Any:
