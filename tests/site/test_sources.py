@@ -78,6 +78,7 @@ def test_witnesses_and_modules_of_the_theory_exist():
 def test_every_figure_has_a_whole_caption():
     config = yaml.safe_load((ROOT / "config.yaml").read_text(encoding="utf-8"))
     for drawing in entries.drawings(config):
+        assert gallery.entry_of(config, drawing), f"name the sections of {drawing.figure}"
         name = "plot_case" if drawing.kind == "case" else f"plot_{drawing.figure}"
         if not (ROOT / f"scripts/{name}.py").exists():
             continue  # of a rule with several figures, whose name Snakemake tells

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from hopper_workflow import configuration, effective, strict_yaml
+from hopper_workflow import configuration, effective, entries, strict_yaml
 from hopper_workflow.publish import run
 from hopper_workflow.site import api, gallery, notebooks, reference, texts, works
 from hopper_workflow.site.source import SiteError, Source
@@ -25,13 +25,12 @@ def main() -> None:
     given = run.configuration()
     config = _config(given)
     summary = _summary(given)
-    drawn = all(Path(path).exists() for path in summary if path.endswith(".png"))
-    if not drawn:
-        print("Figures are missing, so the site has text alone: make them with: make", flush=True)
     source, root = Source(WORK / "source"), Path.cwd()
     texts.write(source, root)
     reference.write(source, root)
-    gallery.write(source, root, config, summary, drawn=drawn)
+    if missing := gallery.write(source, root, config, summary):
+        count = f"{len(missing)} of {len(list(entries.drawings(config)))} figures"
+        print(f"{count} are not drawn yet and have text alone: draw them with: make", flush=True)
     api.write(source, root)
     works.write(source, root)
     notebooks.write(source, root, WORK / "notebooks")

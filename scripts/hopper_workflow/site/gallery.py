@@ -15,6 +15,8 @@ from hopper_workflow.site.source import Source, heading
 
 # Sections of the configuration that figures of no section of their own follow from.
 _SECTIONS = {
+    "fig_design_cone": ("design_charts",),
+    "fig_design_wedge": ("design_charts",),
     "fig_jenike": ("fig_jenike",),
     "fig_4_1": ("smooth_wall",),
     "fig_resolvent": ("sensitivity",),
@@ -43,28 +45,26 @@ def made(summary: Mapping[str, Mapping[str, str]], figure: str) -> Made:
 
 
 def write(
-    source: Source,
-    root: Path,
-    config: Mapping[str, Any],
-    summary: Mapping[str, Mapping[str, str]],
-    *,
-    drawn: bool,
-) -> None:
-    """Write the gallery; if the figures are not ``drawn`` yet, their pages have text alone."""
-    titles = {}
+    source: Source, root: Path, config: Mapping[str, Any], summary: Mapping[str, Mapping[str, str]]
+) -> list[str]:
+    """Write the gallery; return the figures that are not drawn yet, whose pages have text alone."""
+    titles, missing = {}, []
     for drawing in entries.drawings(config):
         figure, how = drawing.figure, made(summary, drawing.figure)
-        for path in [f"figures/{figure}.{kind}" for kind in ("png", "pdf")] if drawn else ():
-            source.copy(path, root / path)
-        for path in how.data:
+        files = [f"figures/{figure}.png", *how.data]
+        for path in files:
             if (root / path).exists():
                 source.copy(path, root / path)
+        drawn = all((root / path).exists() for path in files)
+        if not drawn:
+            missing.append(figure)
         words = caption(root, config, drawing, how)
         titles[figure] = title_of(figure, words)
         lines = _picture(figure, titles[figure], drawn=drawn)
-        lines += [words + "\n", *_made_from(root, config, drawing, how, drawn=drawn)]
+        lines += [words + "\n", *_made_from(root, config, drawing, how)]
         source.write(f"gallery/{figure}.rst", "\n".join(lines) + "\n")
-    source.write("gallery/index.rst", _index(titles, drawn=drawn))
+    source.write("gallery/index.rst", _index(titles, missing))
+    return missing
 
 
 def title_of(figure: str, words: str) -> str:
@@ -76,18 +76,19 @@ def title_of(figure: str, words: str) -> str:
     return " ".join(bold[1].split()) if bold else number.capitalize()
 
 
-def _index(titles: Mapping[str, str], *, drawn: bool) -> str:
+def _index(titles: Mapping[str, str], missing: list[str]) -> str:
     """Return the page of all figures: those of the paper first."""
     names = sorted(titles, key=lambda name: (not titles[name].startswith("Figure"), titles[name]))
     lines = [heading("Gallery"), "Every figure, with its caption and all that it is made from.\n"]
-    if drawn:
+    if len(missing) < len(names):
         lines.append(".. container:: gallery\n")
-        for name in names:
+    for name in names:
+        if name not in missing:
             lines.append(
                 f"   .. figure:: /figures/{name}.png\n      :target: {name}.html\n"
                 f"      :alt: {titles[name]}\n\n      :doc:`{name}`\n"
             )
-    hidden = "   :hidden:\n" if drawn else ""
+    hidden = "" if missing else "   :hidden:\n"
     lines += [f".. toctree::\n   :maxdepth: 1\n{hidden}", *(f"   {name}" for name in names)]
     return "\n".join(lines) + "\n"
 
@@ -100,7 +101,7 @@ def _picture(figure: str, title: str, *, drawn: bool) -> list[str]:
 
 
 def _made_from(
-    root: Path, config: Mapping[str, Any], drawing: entries.Drawing, how: Made, *, drawn: bool
+    root: Path, config: Mapping[str, Any], drawing: entries.Drawing, how: Made
 ) -> list[str]:
     """Return what a figure is made from: rule, script, data, configuration."""
     figure = drawing.figure
@@ -115,15 +116,14 @@ def _made_from(
     for path in how.data:
         there = (root / path).exists()
         lines.append(f"   - :download:`{path} </{path}>`" if there else f"   - ``{path}``")
-    if drawn:
-        lines.append(f":Print: :download:`{figure}.pdf </figures/{figure}.pdf>`")
+    lines.append(f":For print: ``figures/{figure}.pdf``")
     lines.append(":Configuration: :doc:`all keys </configuration>`; here:\n")
     lines.append("   .. code-block:: yaml\n")
-    text = yaml.safe_dump(_entry(config, drawing), sort_keys=False, default_flow_style=None)
+    text = yaml.safe_dump(entry_of(config, drawing), sort_keys=False, default_flow_style=None)
     return [*lines, *(f"      {line}" for line in text.splitlines())]
 
 
-def _entry(config: Mapping[str, Any], drawing: entries.Drawing) -> dict[str, Any]:
+def entry_of(config: Mapping[str, Any], drawing: entries.Drawing) -> dict[str, Any]:
     """Return the part of the configuration that a figure is about."""
     if not drawing.key:
         sections = _SECTIONS.get(drawing.figure, (drawing.figure.removeprefix("fig_"),))
@@ -137,16 +137,17 @@ def _entry(config: Mapping[str, Any], drawing: entries.Drawing) -> dict[str, Any
 
 def caption(root: Path, config: Mapping[str, Any], drawing: entries.Drawing, how: Made) -> str:
     """Return the caption of the report, with the numbers of the configuration."""
-    own = next(iter(_entry(config, drawing).values()))
+    own: Any = next(iter(entry_of(config, drawing).values()), {})
     if drawing.kind == "case":
         own = {"case": own[0]}
     elif drawing.key:
         own = own[drawing.entry]
     name = "case" if drawing.kind == "case" else how.rule.removeprefix("plot_")
     text = (root / f"workflow/report/{name}.rst").read_text(encoding="utf-8")
+    geometry = drawing.figure.rpartition("_")[2]
     job = SimpleNamespace(
         config=config,
-        wildcards=SimpleNamespace(figure=drawing.entry, case=drawing.entry),
+        wildcards=SimpleNamespace(figure=drawing.entry, case=drawing.entry, geometry=geometry),
         params=dict(own, stagnant_from_deg=config["fig_3_2"]["stagnant_from_deg"]),
     )
     environment = jinja2.Environment(undefined=jinja2.StrictUndefined)
