@@ -135,7 +135,7 @@ requests: figures
 bench: .venv/test.stamp
 	@$(BIN)/python -m benchmarks
 
-# Copies of the figures and of the claims ledger for the README.
+# Copies of the figures and of the claims ledger for those who read the sources.
 gallery: figures
 	@mkdir -p docs/gallery && cp figures/*.png docs/gallery/ && cp results/claims.md docs/
 
