@@ -3,6 +3,8 @@
 import argparse
 import doctest
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -169,3 +171,13 @@ def test_the_readme_is_one_screen_whose_links_hold():
     assert text.count("\n") <= 50
     links = re.findall(r"\]\(([^)#:]+)\)", text)
     assert [link for link in links if not (ROOT / link).exists()] == []
+
+
+def test_a_bad_configuration_is_named_in_one_line(tmp_path: Path):
+    other = tmp_path / "other.yaml"
+    other.write_text("radial: {fig_3_1: {points: many}}")
+    command = [sys.executable, "-m", "hopper_workflow.site", str(other)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, encoding="utf-8", check=False)
+    assert done.returncode == 1
+    assert done.stderr.startswith("results/site not built: config key 'radial.fig_3_1.points'")
+    assert done.stderr.count("\n") == 1

@@ -8,22 +8,23 @@ import subprocess
 import sys
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
-from hopper_workflow import configuration, effective, entries, strict_yaml
+from hopper_workflow import configuration, effective, entries
 from hopper_workflow.publish import run
 from hopper_workflow.site import api, gallery, notebooks, reference, texts, works
 from hopper_workflow.site.source import SiteError, Source
 
 WORK, SITE = Path(".site"), Path("results/site")
 SCHEMA = Path("workflow/schemas/config.schema.yaml")
+_TOLD = (SiteError, run.RunError, configuration.ConfigurationError, OSError)
 _CAUSES = ("config.yaml", "Snakefile", "workflow/**/*.smk", "scripts/*.py")
 
 
 def main() -> None:
     """Build the site in the current directory."""
     given = run.configuration()
-    config = _config(given)
+    config = effective.merged(given, SCHEMA)
+    configuration.check(config, SCHEMA)
     summary = _summary(given)
     source, root = Source(WORK / "source"), Path.cwd()
     texts.write(source, root)
@@ -37,14 +38,6 @@ def main() -> None:
     source.finish()
     _sphinx()
     print(SITE / "index.html")
-
-
-def _config(given: Path | None) -> dict[str, Any]:
-    """Return the whole configuration of the run, defaults included."""
-    config = effective.merged(given, SCHEMA) if given else strict_yaml.read("config.yaml")
-    configuration.check(config, SCHEMA)
-    configuration.bring_up_to_date(config, SCHEMA)
-    return config
 
 
 def _summary(given: Path | None) -> dict[str, Mapping[str, str]]:
@@ -77,5 +70,5 @@ def _sphinx() -> None:
 if __name__ == "__main__":
     try:
         main()
-    except (SiteError, run.RunError, OSError) as error:
+    except _TOLD as error:
         sys.exit(f"{SITE} not built: {error}")
