@@ -159,7 +159,8 @@ def test_a_source_keeps_what_is_the_same_and_removes_what_is_not_written(tmp_pat
     (tmp_path / "pages/old.md").write_text("old")
     source = Source(tmp_path / "pages")
     source.write("new.md", "new")
-    source.finish()
+    assert source.finish()
+    assert not source.finish()
     assert [path.name for path in (tmp_path / "pages").iterdir()] == ["new.md"]
     before = (tmp_path / "pages/new.md").stat().st_mtime_ns
     source.write("new.md", "new")

@@ -4,6 +4,7 @@ import csv
 import hashlib
 import json
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Mapping
@@ -35,7 +36,8 @@ def main() -> None:
     api.write(source, root)
     works.write(source, root)
     notebooks.write(source, root, WORK / "notebooks")
-    source.finish()
+    if source.finish():  # Sphinx leaves what it once made of them
+        shutil.rmtree(SITE, ignore_errors=True)
     _sphinx()
     print(SITE / "index.html")
 

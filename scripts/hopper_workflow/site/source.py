@@ -31,13 +31,16 @@ class Source:
         if not path.exists() or _stamp(path) != _stamp(origin):
             shutil.copy2(origin, path)
 
-    def finish(self) -> None:
-        """Remove the files that nobody has written."""
+    def finish(self) -> bool:
+        """Remove the files that nobody has written; return whether there were any."""
+        removed = False
         for path in sorted(self.folder.rglob("*"), reverse=True):
             if path.is_file() and path not in self._written:
                 path.unlink()
+                removed = True
             elif path.is_dir() and not any(path.iterdir()):
                 path.rmdir()
+        return removed
 
     def _new(self, name: str) -> Path:
         path = self.folder / name
