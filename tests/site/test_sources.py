@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 import yaml
@@ -37,8 +38,10 @@ def test_a_cell_that_fails_is_named(tmp_path: Path):
         notebooks.run(path)
 
 
-def test_a_notebook_is_run_again_only_if_it_changed(tmp_path: Path):
+def test_a_notebook_is_run_again_only_if_it_or_code_changed(tmp_path: Path):
     (tmp_path / "src").mkdir()
+    module = tmp_path / "src/module.py"
+    module.write_text('"""Some words."""\n\ndef f():\n    """Say one."""\n    return 1\n')
     (tmp_path / "docs/notebooks").mkdir(parents=True)
     path = tmp_path / "docs/notebooks/one.py"
     path.write_text("# %% [markdown]\n# # One\n\n# %%\nprint(6 * 7)\n")
@@ -47,8 +50,12 @@ def test_a_notebook_is_run_again_only_if_it_changed(tmp_path: Path):
     page = tmp_path / "kept/one/one.md"
     assert "```text\n42\n```" in page.read_text()
     before = page.stat().st_mtime_ns
+    module.write_text(module.read_text().replace("words.", "other\nwords.").replace("Say", "Give"))
     notebooks.write(source, tmp_path, tmp_path / "kept")
     assert page.stat().st_mtime_ns == before
+    module.write_text(module.read_text().replace("return 1", "return 2"))
+    notebooks.write(source, tmp_path, tmp_path / "kept")
+    assert page.stat().st_mtime_ns > before
     path.write_text(path.read_text().replace("7", "8"))
     notebooks.write(source, tmp_path, tmp_path / "kept")
     assert "48" in page.read_text()
@@ -137,6 +144,13 @@ def test_signatures_are_in_the_words_of_the_source():
     assert result == "RadialSolution"
     assert docstrings.signature(hopper.Hopper)
     assert docstrings.signature(3) is None
+
+
+def test_a_page_of_the_api_follows_from_its_own_package():
+    mine, others = ROOT / "src/hopper/radial/grid.py", ROOT / "src/hopper/stability/modes.py"
+    pages = {"api/hopper.radial": {mine, others}, "gallery/fig_3_1": {others}}
+    docstrings.own_files_alone(None, SimpleNamespace(dependencies=pages))
+    assert pages == {"api/hopper.radial": {mine}, "gallery/fig_3_1": {others}}
 
 
 def test_works_are_found_with_their_modules():

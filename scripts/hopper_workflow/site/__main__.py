@@ -61,8 +61,9 @@ def _summary(given: Path | None) -> dict[str, Mapping[str, str]]:
 
 
 def _sphinx() -> None:
-    command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-b", "html"]
-    command += ["-c", "docs/site", "-d", str(WORK / "doctrees"), str(WORK / "source"), str(SITE)]
+    command = [sys.executable, "-m", "sphinx", "-q", "-j", "2", "-W", "--keep-going"]
+    command += ["-b", "html", "-c", "docs/site", "-d", str(WORK / "doctrees")]
+    command += [str(WORK / "source"), str(SITE)]
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(["scripts", "src"])}
     done = subprocess.run(command, env=environment, check=False)
     if done.returncode != 0:

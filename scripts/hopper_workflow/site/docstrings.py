@@ -3,8 +3,10 @@
 import ast
 import inspect
 import re
-import textwrap
+import sys
 from dataclasses import is_dataclass
+from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 _CITATION = re.compile(r"[.][.] (\[\w+\])")
@@ -49,28 +51,48 @@ def signature(value: Any) -> tuple[str, str | None] | None:
 
     None if there is no source, as of what other classes hand down.
     """
-    try:
-        source = inspect.getsource(inspect.unwrap(value))
-        node = ast.parse(textwrap.dedent(source)).body[0]
-    except (OSError, TypeError):
-        return None
+    value = inspect.unwrap(value)
+    node = _definitions(getattr(value, "__module__", "")).get(getattr(value, "__qualname__", ""))
     if isinstance(node, ast.ClassDef) and is_dataclass(value):
         fields = [ast.unparse(one) for one in node.body if isinstance(one, ast.AnnAssign)]
         return f"({', '.join(fields)})", None
     if not isinstance(node, ast.FunctionDef):
         return None
-    every = node.args.posonlyargs + node.args.args
-    if every and every[0].arg in ("self", "cls"):
-        (node.args.posonlyargs or node.args.args).pop(0)
-    return f"({ast.unparse(node.args)})", ast.unparse(node.returns) if node.returns else None
+    words = re.sub(r"^(self|cls)(, /)?(, |$)", "", ast.unparse(node.args))
+    return f"({words})", ast.unparse(node.returns) if node.returns else None
+
+
+@lru_cache
+def _definitions(module: str) -> dict[str, ast.stmt]:
+    """Return the definitions of a module by their names; none of what is written in C."""
+    file = getattr(sys.modules.get(module), "__file__", None) or ""
+    if not file.endswith(".py"):
+        return {}
+    found: dict[str, ast.stmt] = {}
+    ahead = [("", node) for node in ast.parse(Path(file).read_text(encoding="utf-8")).body]
+    while ahead:
+        path, node = ahead.pop()
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            found[path + node.name] = node
+            ahead += [(f"{path}{node.name}.", inner) for inner in node.body]
+    return found
 
 
 def _sign(app: Any, what: str, name: str, value: Any, options: Any, call: Any, gives: Any) -> Any:
     return signature(value) if what in ("function", "method", "class") else None
 
 
+def own_files_alone(app: Any, env: Any) -> None:
+    """Let a page of the API follow from its own package, not from all that it imports."""
+    for page, files in env.dependencies.items():
+        if page.startswith("api/"):
+            folder = page.removeprefix("api/").replace(".", "/")
+            files -= {file for file in files if not str(file.parent).endswith(f"src/{folder}")}
+
+
 def setup(app: Any) -> dict[str, bool]:
     """Register with Sphinx, ahead of the extension that reads the sections of docstrings."""
     app.connect("autodoc-process-docstring", _process, priority=100)
     app.connect("autodoc-process-signature", _sign)
+    app.connect("env-updated", own_files_alone)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

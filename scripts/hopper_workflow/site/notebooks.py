@@ -4,6 +4,7 @@ The percent format, which Jupyter (by Jupytext), VS Code and Spyder open: ``# %%
 a cell of text, ``# %%`` one of code. A page shows what each cell printed, and the figures it left.
 """
 
+import ast
 import contextlib
 import hashlib
 import io
@@ -85,7 +86,7 @@ def _run(path: Path, cell: Cell, space: dict[str, Any]) -> Output:
 
 def write(source: Source, root: Path, kept: Path) -> None:
     """Write a page for each notebook of docs/notebooks; run it only if it or its code changed."""
-    code = b"".join(path.read_bytes() for path in sorted((root / "src").rglob("*.py")))
+    code = b"".join(_code(path) for path in sorted((root / "src").rglob("*.py")))
     for path in sorted((root / "docs/notebooks").glob("*.py")):
         digest = hashlib.sha256(code + path.read_bytes()).hexdigest()
         folder = kept / path.stem
@@ -98,6 +99,21 @@ def write(source: Source, root: Path, kept: Path) -> None:
             if page != stamp:
                 source.copy(f"notebooks/{page.name}", page)
         source.copy(f"notebooks/{path.name}", path)
+
+
+def _code(path: Path) -> bytes:
+    """Return a module without its docstrings, on whose words no result depends."""
+    text = path.read_text(encoding="utf-8")
+    lines = text.splitlines()
+    words: set[int] = set()
+    ahead: list[ast.AST] = [ast.parse(text)]
+    while ahead:
+        node = ahead.pop()
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):
+            ahead += node.body
+            if ast.get_docstring(node, clean=False) is not None:
+                words |= {*range(node.body[0].lineno - 1, node.body[0].end_lineno or 0)}
+    return "\n".join(line for at, line in enumerate(lines) if at not in words).encode()
 
 
 def _set(path: Path, folder: Path) -> None:
