@@ -4,6 +4,7 @@ import ast
 import inspect
 import re
 import sys
+import zlib
 from dataclasses import is_dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -43,7 +44,9 @@ def _escaped(line: str) -> str:
 
 
 def _process(app: Any, what: str, name: str, value: Any, options: Any, lines: list[str]) -> None:
-    lines[:] = mended(lines)
+    # Napoleon takes what precedes a colon in the first line of a property for its type: begin with
+    # an empty comment.
+    lines[:] = ["..", ""] * (what in ("attribute", "property")) + mended(lines)
 
 
 def signature(value: Any) -> tuple[str, str | None] | None:
@@ -90,9 +93,11 @@ def own_files_alone(app: Any, env: Any) -> None:
             files -= {file for file in files if not str(file.parent).endswith(f"src/{folder}")}
 
 
-def setup(app: Any) -> dict[str, bool]:
+def setup(app: Any) -> dict[str, int]:
     """Register with Sphinx, ahead of the extension that reads the sections of docstrings."""
     app.connect("autodoc-process-docstring", _process, priority=100)
     app.connect("autodoc-process-signature", _sign)
     app.connect("env-updated", own_files_alone)
-    return {"parallel_read_safe": True, "parallel_write_safe": True}
+    # All pages are made anew if this file changed.
+    version = zlib.crc32(Path(__file__).read_bytes())
+    return {"parallel_read_safe": True, "parallel_write_safe": True, "env_version": version}

@@ -2,14 +2,19 @@
 
 import logging
 import re
+import zlib
+from pathlib import Path
 from typing import Any
 
 from docutils import nodes
 from docutils.utils.math import MathError
 from docutils.utils.math.latex2mathml import tex2mathml
 
-# Functions stand close to their arguments unless told otherwise.
-_FUNCTION = re.compile(r"(<mi>(?:arc)?(?:sin|cos|tan|cot|log)</mi>)(?!\s*<mo[^>]*>\()")
+# Functions stand close to factors and arguments unless told otherwise.
+_NAME = r"<mi>(?:arc)?(?:sin|cos|tan|cot|log)</mi>"
+_FUNCTION = re.compile(rf"({_NAME})(?!\s*<mo[^>]*>\()")
+_FACTOR = re.compile(rf"(</m(?:i|n|sub|sup|frac)>)(?=\s*{_NAME})")
+_SPACE = r'\1<mspace width="0.17em"/>'
 
 
 def _mathml(node: Any, *, as_block: bool) -> str:
@@ -17,7 +22,7 @@ def _mathml(node: Any, *, as_block: bool) -> str:
     text = str(node.astext())
     try:
         formula = str(tex2mathml(text, as_block=as_block))
-        return _FUNCTION.sub(r'\1<mspace width="0.17em"/>', formula)
+        return _FUNCTION.sub(_SPACE, _FACTOR.sub(_SPACE, formula))
     except MathError as error:
         logger = logging.getLogger("sphinx.hopper.mathml")
         logger.warning("formula %s: %s", text, error, extra={"location": node})
@@ -30,15 +35,17 @@ def _inline(translator: Any, node: Any) -> None:
 
 
 def _block(translator: Any, node: Any) -> None:
-    attributes = {"ids": node["ids"]} if node["ids"] else {}
-    translator.body.append(translator.starttag(node, "div", CLASS="math", **attributes))
+    # The theme's wrapper has the id.
+    translator.body.append('<div class="math">')
     if node["number"]:
         translator.body.append(f'<span class="eqno">({node["number"]})</span>')
     translator.body.append(_mathml(node, as_block=True) + "</div>\n")
     raise nodes.SkipNode
 
 
-def setup(app: Any) -> dict[str, bool]:
+def setup(app: Any) -> dict[str, int]:
     """Register the renderer with Sphinx."""
     app.add_html_math_renderer("mathml", (_inline, None), (_block, None))
-    return {"parallel_read_safe": True, "parallel_write_safe": True}
+    # All pages are made anew if this file changed.
+    version = zlib.crc32(Path(__file__).read_bytes())
+    return {"parallel_read_safe": True, "parallel_write_safe": True, "env_version": version}
