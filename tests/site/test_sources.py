@@ -1,10 +1,12 @@
 """What the pages of the site are made from, without Sphinx."""
 
 import argparse
+import ast
 import doctest
 import re
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -19,6 +21,10 @@ from hopper_workflow.site.source import SiteError, Source
 from tests.site.conftest import ROOT
 
 THEORY = (ROOT / "docs/site/theory.md").read_text(encoding="utf-8")
+FUNCTIONS = (ROOT / "docs/site/functions.md").read_text(encoding="utf-8")
+EXAMPLES = [
+    path for path in sorted((ROOT / "src").rglob("*.py")) if ">>> " in path.read_text("utf-8")
+]
 MADE_LATER = ("configuration.md", "command.md", "glossary.md", "references.md")
 NOTEBOOKS = sorted((ROOT / "docs/notebooks").glob("*.py"))
 
@@ -61,18 +67,22 @@ def test_a_notebook_is_run_again_only_if_it_or_code_changed(tmp_path: Path):
     assert "48" in page.read_text()
 
 
-def test_examples_of_functions_hold():
-    page = (ROOT / "docs/site/functions.md").read_text(encoding="utf-8")
-    blocks = re.findall(r"```pycon\n(.*?)```", page, re.DOTALL)
-    examples = doctest.DocTestParser().get_doctest("\n".join(blocks), {}, "functions", None, 0)
-    failures: list[str] = []
-    doctest.DocTestRunner().run(examples, out=failures.append)
-    assert "".join(failures) == ""
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: str(path.relative_to(ROOT / "src")))
+def test_examples_of_docstrings_hold(path: Path):
+    parser, runner, told = doctest.DocTestParser(), doctest.DocTestRunner(), list[str]()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.FunctionDef | ast.ClassDef | ast.Module):
+            text, line = ast.get_docstring(node) or "", getattr(node, "lineno", 1)
+            examples = parser.get_doctest(text, {}, f"{path.name}, line {line}", str(path), line)
+            runner.run(examples, out=told.append)
+    assert "".join(told) == ""
 
 
-def test_every_name_that_hopper_hands_on_has_an_example():
-    page = (ROOT / "docs/site/functions.md").read_text(encoding="utf-8")
-    assert [name for name in hopper.__all__[1:] if f"`{name} <hopper." not in page] == []
+def test_functions_to_begin_with_have_an_example():
+    assert [name for name in hopper.__all__[1:] if f"`{name} <hopper." not in FUNCTIONS] == []
+    for path in re.findall(r"{py:func}`\w+ <([\w.]+)>`", FUNCTIONS):
+        module, _, name = path.rpartition(".")
+        assert ">>>" in (getattr(import_module(module), name).__doc__ or ""), path
 
 
 def test_witnesses_and_modules_of_the_theory_exist():
@@ -135,6 +145,8 @@ def test_docstrings_keep_formulas_bars_and_works():
         *(r"\|x\| of ``y``, by [TE]:", "", "::", "", "    a = |b|", ""),
         "see :func:`f` and :func:`g`.",
     ]
+    example = ["    >>> x | y", "    `|`", "", "`z`"]
+    assert docstrings.mended(example) == ["    >>> x | y", "    `|`", "", "``z``"]
     assert docstrings.mended([".. [TE] A book."]) == ["*  **[TE]** A book."]
 
 

@@ -19,18 +19,19 @@ _NAME = re.compile(r"`([^`]+)`")
 def mended(lines: list[str]) -> list[str]:
     """Return the lines of a docstring with formulas kept as set, bars as bars, works as a list."""
     found: list[str] = []
-    literal = False
+    literal = example = False
     before = ""
     for line in lines:
         indented = line.startswith("    ")
+        example = bool(line) and (example or line.lstrip().startswith(">>> "))
         if line and not indented:
             literal = False
-        elif indented and found and not found[-1] and not before.startswith(" "):
+        elif indented and not example and found and not found[-1] and not before.startswith(" "):
             literal = True
             found += ["::", ""]
         if line:
             before = line
-        found.append(line if literal else _escaped(_CITATION.sub(r"*  **\1**", line)))
+        found.append(line if literal or example else _escaped(_CITATION.sub(r"*  **\1**", line)))
     return found
 
 
