@@ -150,6 +150,11 @@ def test_docstrings_keep_formulas_bars_and_works():
     assert docstrings.mended([".. [TE] A book."]) == ["*  **[TE]** A book."]
 
 
+def test_attributes_of_one_line_are_one_field():
+    assert docstrings.joined(":ivar a, b: both") == ":ivar a,\u200bb: both"
+    assert docstrings.joined(":ivar a: of b, c: d") == ":ivar a: of b, c: d"
+
+
 def test_signatures_are_in_the_words_of_the_source():
     arguments, result = docstrings.signature(hopper.solve_radial) or ("", "")
     assert arguments.startswith("(hopper: Hopper, friction_angle: Radians, ")

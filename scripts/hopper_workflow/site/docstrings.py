@@ -13,6 +13,7 @@ from typing import Any
 _CITATION = re.compile(r"[.][.] (\[\w+\])")
 _REFERENCE = re.compile(r"(\[\w+\])_")
 _CODE = re.compile(r"(``.*?``|:\w+:`[^`]*`)")
+_SEVERAL = re.compile(r"^:(ivar|vartype) (\w+(?:, \w+)+):")
 _NAME = re.compile(r"`([^`]+)`")
 
 
@@ -48,6 +49,15 @@ def _process(app: Any, what: str, name: str, value: Any, options: Any, lines: li
     # Napoleon takes what precedes a colon in the first line of a property for its type: begin with
     # an empty comment.
     lines[:] = ["..", ""] * (what in ("attribute", "property")) + mended(lines)
+
+
+def joined(line: str) -> str:
+    """Return a field of several attributes with their names in one word, as Sphinx wants it."""
+    return _SEVERAL.sub(lambda found: found[0].replace(", ", ",\u200b"), line)
+
+
+def _join(app: Any, what: str, name: str, value: Any, options: Any, lines: list[str]) -> None:
+    lines[:] = map(joined, lines)
 
 
 def signature(value: Any) -> tuple[str, str | None] | None:
@@ -95,8 +105,9 @@ def own_files_alone(app: Any, env: Any) -> None:
 
 
 def setup(app: Any) -> dict[str, int]:
-    """Register with Sphinx, ahead of the extension that reads the sections of docstrings."""
+    """Register with Sphinx, before and behind what reads the sections of docstrings."""
     app.connect("autodoc-process-docstring", _process, priority=100)
+    app.connect("autodoc-process-docstring", _join, priority=900)
     app.connect("autodoc-process-signature", _sign)
     app.connect("env-updated", own_files_alone)
     # All pages are made anew if this file changed.
