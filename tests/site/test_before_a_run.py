@@ -1,6 +1,5 @@
 """The site of a fresh copy: text alone, and the command that makes the figures."""
 
-import os
 import re
 import shutil
 import subprocess
@@ -9,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.site.conftest import ROOT
+from tests.site.conftest import ENVIRONMENT, ROOT
 from tests.workflow.conftest import PARTS
 
 pytestmark = pytest.mark.site
@@ -20,10 +19,9 @@ def test_text_alone_and_the_command_that_makes_figures(tmp_path: Path):
     for name in (*PARTS, *ALSO):
         origin, copy = ROOT / name, tmp_path / name
         (shutil.copytree if origin.is_dir() else shutil.copy2)(origin, copy)
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(["scripts", "src"])}
     command = [sys.executable, "-m", "hopper_workflow.site"]
     done = subprocess.run(
-        command, cwd=tmp_path, env=environment, capture_output=True, encoding="utf-8", check=False
+        command, cwd=tmp_path, env=ENVIRONMENT, capture_output=True, encoding="utf-8", check=False
     )
     assert done.returncode == 0, done.stderr
     missing, made = done.stdout.splitlines()
@@ -46,7 +44,7 @@ def test_a_warning_is_an_error_in_one_line(tmp_path: Path):
     )
     done = subprocess.run(
         [sys.executable, "-c", program], cwd=ROOT, capture_output=True, encoding="utf-8",
-        env=os.environ | {"PYTHONPATH": os.pathsep.join(["scripts", "src"])}, check=False,
+        env=ENVIRONMENT, check=False,
     )  # fmt: skip
     assert done.returncode != 0
     assert "no_such_page.md" in done.stderr

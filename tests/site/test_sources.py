@@ -18,7 +18,7 @@ from hopper_workflow import entries
 from hopper_cli import main
 from hopper_workflow.site import docstrings, gallery, notebooks, reference, texts, works
 from hopper_workflow.site.source import SiteError, Source
-from tests.site.conftest import ROOT
+from tests.site.conftest import ENVIRONMENT, ROOT
 
 THEORY = (ROOT / "docs/site/theory.md").read_text(encoding="utf-8")
 FUNCTIONS = (ROOT / "docs/site/functions.md").read_text(encoding="utf-8")
@@ -209,7 +209,9 @@ def test_a_bad_configuration_is_named_in_one_line(tmp_path: Path):
     other = tmp_path / "other.yaml"
     other.write_text("radial: {fig_3_1: {points: many}}")
     command = [sys.executable, "-m", "hopper_workflow.site", str(other)]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, encoding="utf-8", check=False)
+    done = subprocess.run(
+        command, cwd=ROOT, env=ENVIRONMENT, capture_output=True, encoding="utf-8", check=False
+    )
     assert done.returncode == 1
     assert done.stderr.startswith("results/site not built: config key 'radial.fig_3_1.points'")
     assert done.stderr.count("\n") == 1
