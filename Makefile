@@ -2,6 +2,7 @@
 # make report   results/report.html         make crate  results/hopper-crate.zip, of a finished run
 # make verify   find damaged results        make resume go on after a kill or a loss of power
 # make sbom     results/sbom.cdx.json, the packages of the locks; make audit: their known vulnerabilities
+# make docs     results/site/index.html, the site; make test-docs: its tests, also in a browser
 # make bench    measure the speed figures   make lock   resolve the dependencies anew (needs uv)
 # make figures/fig_3_1.png                  build one figure
 # make cluster  the environment with Snakemake's SLURM executor; docs/cluster.md tells more
@@ -109,6 +110,14 @@ reliability: .venv/test.stamp .venv/cluster.stamp
 	@$(BIN)/python -m pytest -m '' tests/radial/test_coverage.py $(RELIABILITY:%=tests/workflow/test_%.py) tests/slurm
 	@$(BIN)/python -m tests.reliability > docs/reliability.md
 
+# Pages from README, docs, schema, parsers, captions and docstrings; before a run without its figures.
+.PHONY: docs test-docs
+docs: .venv/docs.stamp
+	@$(WORKFLOW).site $(OTHER)
+
+test-docs: docs .venv/test.stamp
+	@$(BIN)/python -m pytest -m site tests/site
+
 # On a SLURM of its own, which it installs and starts: Debian, root, some ten minutes.
 .PHONY: cluster slurm test-slurm requests
 cluster: .venv/cluster.stamp
@@ -126,12 +135,12 @@ requests: figures
 bench: .venv/test.stamp
 	@$(BIN)/python -m benchmarks
 
-# Copies of the figures and of the claims ledger for the README.
+# Copies of the figures and of the claims ledger for those who read the sources.
 gallery: figures
 	@mkdir -p docs/gallery && cp figures/*.png docs/gallery/ && cp results/claims.md docs/
 
 clean:
-	rm -rf results figures/*.png figures/*.pdf logs .snakemake
+	rm -rf results figures/*.png figures/*.pdf logs .snakemake .site
 
 # An environment knows its place and its Python: moved, copied, or without that Python it is made anew.
 .venv/place: FORCE
@@ -162,6 +171,11 @@ clean:
 	@$(PIP) -r requirements-cluster.lock
 	@touch $@
 
+.venv/docs.stamp: .venv/run.stamp requirements-docs.lock
+	@echo "Adding Sphinx from requirements-docs.lock"
+	@$(PIP) -r requirements-docs.lock
+	@touch $@
+
 COMPILE := uv pip compile --universal --generate-hashes --no-header --no-annotate -q
 lock:
 	echo 'setuptools>=80' | $(COMPILE) - -o requirements-build.lock
@@ -169,3 +183,4 @@ lock:
 	$(COMPILE) pyproject.toml --extra workflow --extra dev -c requirements.lock -o requirements-dev.lock
 	echo 'cffconvert==2.0.0' | $(COMPILE) --no-deps - -o requirements-cff.lock
 	$(COMPILE) pyproject.toml --extra workflow --extra cluster -c requirements.lock -o requirements-cluster.lock
+	$(COMPILE) pyproject.toml --extra workflow --extra docs -c requirements-dev.lock -o requirements-docs.lock

@@ -50,7 +50,7 @@ if TYPE_CHECKING:
     from hopper.stability.modes import linear_stability as linear_stability
     from hopper.yield_conditions import yield_condition as yield_condition
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 # The same for the interpreter, which imports a room when one of its names is first asked for.
 _HOMES = {

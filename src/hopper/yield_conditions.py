@@ -155,6 +155,12 @@ def yield_condition(name: str) -> YieldCondition:
     ------
     InvalidParameterError
         If the name is neither.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, yield_condition
+    >>> Hopper("cone", 0.7, 0.35, yield_condition("von-mises"))
+    Hopper(cone, delta=40.107 deg, half_angle=20.0535 deg, von Mises)
     """
     if not isinstance(name, str) or name not in _BY_NAME:
         raise InvalidParameterError(

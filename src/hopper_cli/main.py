@@ -72,7 +72,7 @@ def _run(arguments: Sequence[str]) -> int:
     """Print the answer, or why there is none; with ``--json`` both are JSON on stdout."""
     doubts: list[str] = []
     try:
-        options = _parser().parse_args(arguments)
+        options = build_parser().parse_args(arguments)
         options.doubts = doubts = hints.doubts(options)
         checks.check(options)
         # Only now: the numerics take most of the time.
@@ -115,7 +115,8 @@ def _fail(message: str, code: int) -> int:
     return code
 
 
-def _parser() -> argparse.ArgumentParser:
+def build_parser() -> argparse.ArgumentParser:
+    """Return the parser of the command, its parts and their options."""
     parser = _Parser(
         prog="hopper",
         description="Radial stress and velocity fields of a hopper, and their linear stability. "

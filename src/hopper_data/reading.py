@@ -48,5 +48,15 @@ def open_artifact(path: str | Path) -> xr.Dataset:
     ------
     OSError
         If it is missing or not a netCDF file.
+
+    Examples
+    --------
+    >>> from tempfile import NamedTemporaryFile
+    >>> import xarray
+    >>> from hopper_data import open_artifact
+    >>> with NamedTemporaryFile(suffix=".nc") as file:
+    ...     xarray.Dataset({"psi": ("theta", [0.0, 0.5])}).to_netcdf(file.name)
+    ...     print(open_artifact(file.name).psi.values)
+    [0.  0.5]
     """
     return decoded(open_stored(path))

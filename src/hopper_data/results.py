@@ -58,6 +58,14 @@ def to_dataset(result: Any) -> xr.Dataset:
     ------
     TypeError
         If it is none of these.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial
+    >>> from hopper_data import to_dataset
+    >>> solution = solve_radial(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.3)
+    >>> round(float(to_dataset(solution).sigma.min()), 4)
+    0.1185
     """
     return decoded(as_xarray(stored_form(result)))
 

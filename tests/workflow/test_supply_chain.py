@@ -22,7 +22,8 @@ from tests.workflow.conftest import ROOT, Workflow, copy
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 LOCKED = {use: locks.read(ROOT / lock) for use, lock in locks.LOCKS.items()}
 # Every lock holds what these parts of pyproject.toml ask for.
-EXTRAS = {"run": ["workflow"], "cluster": ["workflow", "cluster"], "dev": ["workflow", "dev"]}
+EXTRAS = {"run": ["workflow"], "cluster": ["workflow", "cluster"], "dev": ["workflow", "dev"],
+          "docs": ["workflow", "docs"]}  # fmt: skip
 SOME = ["figures/fig_3_1.png", "results/smooth_wall.nc"]
 
 
@@ -112,7 +113,7 @@ def _numbers(version: str) -> list[int]:
 
 
 def test_the_locks_agree_with_each_other():
-    for use in ("dev", "cluster"):
+    for use in ("dev", "cluster", "docs"):
         missing = set(LOCKED["run"]) - set(LOCKED[use])
         assert not missing, use
 

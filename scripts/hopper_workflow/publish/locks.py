@@ -12,6 +12,7 @@ LOCKS = {
         ("dev", "-dev"),
         ("build", "-build"),
         ("cff", "-cff"),
+        ("docs", "-docs"),
     )
 }
 _PIN = re.compile(r"(?P<name>[a-z0-9][a-z0-9._-]*)==(?P<version>[\w.+!-]+)( ; (?P<marker>.+))?")

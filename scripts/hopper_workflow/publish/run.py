@@ -13,7 +13,7 @@ from hopper_workflow import effective, logs, surroundings
 DATA = {".nc", ".csv"}  # suffixes of inputs that hold data; all other inputs are code
 RESULTS = {*DATA, ".json", ".html", ".md", ".png", ".pdf"}
 PUBLISHED = ("results/report.html", "results/sbom.cdx.json", "figures/README.md")
-CHECKS = Path("results/figure_checks")
+BESIDE = {Path("results/figure_checks"), Path("results/site")}  # of which no job knows
 
 
 class RunError(Exception):
@@ -61,7 +61,7 @@ def existing() -> list[str]:
         if path.suffix in RESULTS
         and not path.name.startswith(".")
         and str(path) not in PUBLISHED
-        and CHECKS not in path.parents
+        and BESIDE.isdisjoint(path.parents)
     )
 
 

@@ -72,6 +72,12 @@ def assess(hopper: Hopper, friction_angle: Radians) -> Assessment:
         If the friction is out of range.
     WallFrictionError
         If the material cannot transmit the wall's friction.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, assess
+    >>> assess(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.3).outcome
+    'stable'
     """
     try:
         radial = assess_radial(hopper, friction_angle)

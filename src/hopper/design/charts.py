@@ -108,6 +108,12 @@ def chart(
     InvalidParameterError
         If an angle is out of range, the half angles do not increase, or there are fewer than two,
         or fewer than two frictions.
+
+    Examples
+    --------
+    >>> from hopper.design.charts import chart
+    >>> chart("cone", delta=0.7, half_angle_row=[0.2, 0.3, 0.4], frictions=2)
+    Chart(half_angle=11.4592 deg..22.9183 deg (3))
     """
     angles = np.asarray(half_angle_row)
     if angles.size < 2 or np.any(np.diff(angles) <= 0):

@@ -73,6 +73,14 @@ def design(
         If the material cannot transmit the wall's friction.
     InvalidParameterError
         If an argument is out of range, or no outlet is wide enough for the flow function.
+
+    Examples
+    --------
+    >>> from hopper.design.design import design
+    >>> from hopper.design.material import Material
+    >>> found = design(Material("cone", delta=0.7, friction_angle=0.28), margin=0.05)
+    >>> found.half_angles.governed_by, round(found.recommended.value, 4)
+    ('classical', 0.5136)
     """
     require_angle("margin", margin, zero_allowed=True)
     found = half_angles(material, disturbances)

@@ -49,6 +49,13 @@ def flow_pattern(material: Material, half_angle: Radians) -> FlowPattern:
     ------
     WallFrictionError
         If the material cannot transmit the wall's friction.
+
+    Examples
+    --------
+    >>> from hopper.design.flow_pattern import flow_pattern
+    >>> from hopper.design.material import Material
+    >>> flow_pattern(Material("cone", delta=0.7, friction_angle=0.28), half_angle=0.35).mass_flow
+    True
     """
     require_angle("half_angle", half_angle)
     try:

@@ -110,6 +110,14 @@ def half_angles(material: Material, disturbances: Disturbances | None = None) ->
         If the material cannot transmit the wall's friction.
     InvalidParameterError
         If an angle is out of range, or asymmetric disturbances of a cone are asked for.
+
+    Examples
+    --------
+    >>> from hopper.design.half_angles import half_angles
+    >>> from hopper.design.material import Material
+    >>> found = half_angles(Material("cone", delta=0.7, friction_angle=0.28))
+    >>> round(found.classical.value, 4)
+    0.5636
     """
     narrow = material.hopper(NARROWEST)
     narrow.material.wall_angle(narrow.delta, material.friction_angle)

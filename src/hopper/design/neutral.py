@@ -11,6 +11,7 @@ from hopper.quantity import Quantity
 from hopper.radial.solution import RadialSolution
 from hopper.roots import root_between
 from hopper.stability.modes import Disturbances, linear_stability
+from hopper.values import require_row
 
 # Step for slopes of the abscissa, in the parameter.
 _STEP = 1e-6
@@ -48,8 +49,14 @@ def neutral_between(
 
 @checked
 def last_run(stable: Mask) -> tuple[int, int] | None:
-    """Return the first and last index of the last run of stable samples, None without one."""
-    (places,) = np.nonzero(stable)
+    """Return the first and last index of the last run of stable samples, None without one.
+
+    Raises
+    ------
+    InvalidParameterError
+        If ``stable`` is not a row.
+    """
+    places = np.flatnonzero(require_row("stable", stable))
     if not places.size:
         return None
     first = last = int(places[-1])

@@ -136,6 +136,15 @@ def smallest_outlet(
     ------
     InvalidParameterError
         As :func:`critical_stress`.
+
+    Examples
+    --------
+    >>> from hopper import Hopper
+    >>> from hopper.design.outlet import linear_flow_function, smallest_outlet
+    >>> from hopper.quantity import Quantity
+    >>> cone, strength = Hopper("cone", delta=0.7, half_angle=0.35), linear_flow_function(1.0, 0.2)
+    >>> round(smallest_outlet(cone, Quantity(1.5, 0.01), strength, density=1000).width.value, 3)
+    0.34
     """
     stress = critical_stress(function, factor.value)
     # Of the flow factor: f_crit moves along the flow function.

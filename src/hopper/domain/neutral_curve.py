@@ -127,6 +127,13 @@ def neutral_curve(
         If the step is not a positive number.
     NoNeutralPointError
         If not even the smooth wall has a neutral delta.
+
+    Examples
+    --------
+    >>> from hopper import neutral_curve
+    >>> curve = neutral_curve("cone", half_angle=0.2, step=0.1)
+    >>> print(curve.delta[:2].round(4), curve.friction_angle[:2].round(4))
+    [0.5873 0.4982] [0.  0.1]
     """
     hoppers = Hoppers(geometry, half_angle, disturbances)
     start = neutral_delta(geometry, half_angle, 0.0, disturbances=disturbances)

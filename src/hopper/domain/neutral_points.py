@@ -106,6 +106,13 @@ def stable_deltas(
         If an angle is out of range, or asymmetric disturbances of a cone are asked for.
     NoRadialSolutionError
         If no hopper has a radial solution at this wall friction.
+
+    Examples
+    --------
+    >>> from hopper import stable_deltas
+    >>> [interval] = stable_deltas("cone", half_angle=0.2, friction_angle=0.2).intervals
+    >>> round(interval.lower, 4), interval.lower_end, interval.upper_end
+    (0.4567, 'neutral', 'steepest_looked_at')
     """
     require_angle("friction_angle", friction_angle, zero_allowed=True)
     if step < _LEAST_STEP:
@@ -173,6 +180,12 @@ def neutral_delta(
         If no hopper has a radial solution at this wall friction.
     NoNeutralPointError
         If no delta separates unstable from stable hoppers at this friction.
+
+    Examples
+    --------
+    >>> from hopper import neutral_delta
+    >>> round(neutral_delta("cone", half_angle=0.2, friction_angle=0.2), 4)
+    0.4567
     """
     require_angle("friction_angle", friction_angle, zero_allowed=True)
     if guess is not None:

@@ -91,6 +91,16 @@ def march(
         If the top is beyond the tangency.
     ConvergenceError
         If the top is too rough for the finest mesh.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial
+    >>> from hopper.march.base import base_of
+    >>> from hopper.march.outcome import march
+    >>> from hopper.march.tops import bump_of_sigma
+    >>> wedge = Hopper("wedge", delta=0.8, half_angle=0.25)
+    >>> march(base_of(solve_radial(wedge, 0.2)), bump_of_sigma(0.4), tau_end=1.0).kind
+    'crossing'
     """
     if not 0 < tau_end <= _DEEPEST:
         raise InvalidParameterError(

@@ -25,6 +25,13 @@ def flow_factor(solution: RadialSolution) -> float:
     References
     ----------
     A. W. Jenike, Storage and flow of solids, Bulletin 123, Utah Eng. Exp. Station (1964).
+
+    Examples
+    --------
+    >>> from hopper import Hopper, flow_factor, solve_radial
+    >>> solution = solve_radial(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.3)
+    >>> round(flow_factor(solution), 4)
+    1.4503
     """
     hopper = solution.hopper
     major, _ = hopper.material.principal_stresses(

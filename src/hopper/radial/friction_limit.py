@@ -60,6 +60,13 @@ def friction_limit(hopper: Hopper) -> FrictionLimit:
         If not even a smooth wall has one.
     ConvergenceError
         If the end of the branch is not resolved.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, friction_limit
+    >>> limit = friction_limit(Hopper("cone", delta=0.7, half_angle=0.35))
+    >>> limit.end, round(limit.friction_angle, 4)
+    ('fold', 0.4372)
     """
     return _of(hopper, first_piece(hopper).end)
 

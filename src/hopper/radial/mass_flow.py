@@ -88,6 +88,12 @@ def mass_flow_half_angle(hopper: Hopper, friction_angle: Radians) -> float:
         As :func:`limiting_fields`.
     WallFrictionError
         If the material cannot transmit the wall's friction.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, mass_flow_half_angle
+    >>> round(mass_flow_half_angle(Hopper("cone", 0.7, 0.35), friction_angle=0.25), 4)
+    0.6032
     """
     require_angle("friction_angle", friction_angle, zero_allowed=True)
     return _apex_angle(hopper) - hopper.material.wall_angle(hopper.delta, friction_angle)

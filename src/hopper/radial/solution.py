@@ -210,6 +210,12 @@ def solve_radial(
         If the stress would not be positive.
     ConvergenceError
         If the fields cannot be resolved.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial
+    >>> round(solve_radial(Hopper("cone", 0.7, 0.35), friction_angle=0.3).sigma_axis, 4)
+    0.1185
     """
     require_angle("friction_angle", friction_angle, zero_allowed=True)
     if branch == "physical":
@@ -235,6 +241,12 @@ def radial_solutions(hopper: Hopper, friction_angle: Radians) -> list[RadialSolu
     ------
     HopperError
         As :func:`solve_radial` for the physical branch.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, radial_solutions
+    >>> [one.branch for one in radial_solutions(Hopper("cone", 0.52, 0.52), friction_angle=0.34)]
+    ['physical', 'second']
     """
     physical = solve_radial(hopper, friction_angle)
     return [physical, *_all_branches(hopper, friction_angle)[1:]]
@@ -269,6 +281,12 @@ def solve_radial_family(hopper: Hopper, sigma_axis: Positive) -> RadialSolution:
         If no member that slips downwards along its wall has this stress.
     ConvergenceError
         If the fields cannot be resolved.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial_family
+    >>> round(solve_radial_family(Hopper("cone", 0.7, 0.35), sigma_axis=0.1).friction_angle, 4)
+    0.3336
     """
     return solution_of(member_with_tau(hopper, 1 / sigma_axis))
 

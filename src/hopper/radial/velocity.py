@@ -71,6 +71,13 @@ def solve_velocity(solution: RadialSolution) -> VelocityField:
         If psi reaches pi/4 inside the hopper.
     ConvergenceError
         If log u is not resolved to 1e-6.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial, solve_velocity
+    >>> solution = solve_radial(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.3)
+    >>> round(solve_velocity(solution).wall, 4)
+    0.494
     """
     theta = solution.first_angle_with(pi / 4)
     if theta is not None:

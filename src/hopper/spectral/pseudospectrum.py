@@ -64,6 +64,12 @@ def smallest_singular_values(
     InvalidParameterError
         If a point is not finite, the tolerance is not in (0, 1), or a result is outside the range
         of numbers.
+
+    Examples
+    --------
+    >>> from hopper import schur_form, smallest_singular_values
+    >>> print(smallest_singular_values(schur_form([[-1, 10], [0, -2]]), [0, 1j]).round(4))
+    [0.1952 0.3058]
     """
     points = np.asarray(z, dtype=complex)
     scaled = times_power(points, -form.exponent)
@@ -127,6 +133,14 @@ def pseudospectrum(
     ------
     InvalidParameterError
         If an axis has fewer than two values, is not finite or not increasing.
+
+    Examples
+    --------
+    >>> from hopper import pseudospectrum, schur_form
+    >>> grid = pseudospectrum(schur_form([[-1, 10], [0, -2]]), [-0.5, 0], [0, 1])
+    >>> print(grid.sigma_min.round(4))
+    [[0.0741 0.1952]
+     [0.1972 0.3058]]
     """
     x, y = _axis("real", real), _axis("imag", imag)
     heights, source = _rows(y, form.rounding) if form.is_real else (y, np.arange(y.size))

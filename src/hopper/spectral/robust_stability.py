@@ -146,6 +146,13 @@ def pseudospectral_abscissa(form: SchurForm, epsilon: AnyFloat) -> tuple[float, 
         If epsilon is not finite or not above rounding, ``form.rounding``.
     ConvergenceError
         If the search does not end.
+
+    Examples
+    --------
+    >>> from hopper import pseudospectral_abscissa, schur_form
+    >>> abscissa, place = pseudospectral_abscissa(schur_form([[-1, 10], [0, -2]]), 0.01)
+    >>> round(abscissa, 4)
+    -0.9079
     """
     t = form.triangle
     # sigma_min(z I - M) >= Re z - numerical abscissa.
@@ -178,6 +185,13 @@ def pseudospectral_radius(form: SchurForm, epsilon: AnyFloat) -> tuple[float, co
         If epsilon is not finite or not above rounding, ``form.rounding``.
     ConvergenceError
         If the search does not end.
+
+    Examples
+    --------
+    >>> from hopper import pseudospectral_radius, schur_form
+    >>> radius, place = pseudospectral_radius(schur_form([[-1, 10], [0, -2]]), 0.01)
+    >>> round(radius, 4)
+    2.0921
     """
 
     def search(level: float) -> tuple[float, complex]:
@@ -210,6 +224,13 @@ def distance_to_instability(form: SchurForm) -> tuple[float, float]:
     ------
     ConvergenceError
         If the iteration does not end.
+
+    Examples
+    --------
+    >>> from hopper import distance_to_instability, schur_form
+    >>> distance, frequency = distance_to_instability(schur_form([[-1, 10], [0, -2]]))
+    >>> round(distance, 4)
+    0.1952
     """
     value, z = _least(form, 1j * form.diagonal.imag)
     for _ in range(_STEPS):

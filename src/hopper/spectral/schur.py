@@ -106,6 +106,12 @@ def schur_form(matrix: ArrayLike, weight: RealLike | None = None) -> SchurForm:
         If the matrix is not square, a value is not finite, or a weight is not positive.
     ConvergenceError
         If LAPACK finds no Schur form.
+
+    Examples
+    --------
+    >>> from hopper import schur_form
+    >>> schur_form([[-1, 10], [0, -2]]).size
+    2
     """
     a = square("matrix", matrix)
     exponent = exponent_of(a)

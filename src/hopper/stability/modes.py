@@ -187,6 +187,14 @@ def linear_stability(
         If the material is not Mohr-Coulomb, or asymmetric disturbances of a cone are asked for.
     ConvergenceError
         If fewer than three low modes or the line converge.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, linear_stability, solve_radial
+    >>> solution = solve_radial(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.3)
+    >>> stability = linear_stability(solution)
+    >>> stability.verdict, round(stability.abscissa, 4)
+    ('stable', -4.4827)
     """
     if start is None:
         parities = parities_among(disturbances, solution.hopper.geometry)

@@ -78,6 +78,14 @@ def design_over(
         If the box has a range of half angles, or is a single hopper.
     HopperError
         As :func:`hopper.design.design.design` in the middle of the box.
+
+    Examples
+    --------
+    >>> from hopper.uncertainty.box import Box, Range
+    >>> from hopper.uncertainty.designs import design_over
+    >>> box = Box("cone", Range(0.65, 0.7), wall=Range(0.28, 0.28), half_angle=Range(0.3, 0.3))
+    >>> round(design_over(box, margin=0.05).recommended.value, 4)
+    0.5136
     """
     require_angle("margin", margin, zero_allowed=True)
     if not box.ranged or "half_angle" in box.ranged:

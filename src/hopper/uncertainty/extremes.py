@@ -3,7 +3,12 @@
 Corners are not assumed: samples start a descent along the slopes, and what it finds is held against
 its neighbourhood. Where the number does not exist, or has a kink, only comparisons are left:
 a search by steps that shrink, along the axes and along random directions, as borders are oblique
-[Audet, Dennis, SIAM J. Optim. 17, 188 (2006)].
+[AD]_.
+
+References
+----------
+.. [AD] C. Audet, J. E. Dennis, Mesh adaptive direct search algorithms for constrained optimization,
+   SIAM J. Optim. 17 (2006).
 """
 
 from collections.abc import Callable

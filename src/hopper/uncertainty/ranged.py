@@ -76,6 +76,15 @@ def radial_over(box: Box, normal: bool = False) -> Ranged:
     ------
     InvalidParameterError
         If the box is a single hopper.
+
+    Examples
+    --------
+    >>> from hopper.uncertainty.box import Box, Range
+    >>> from hopper.uncertainty.ranged import radial_over
+    >>> box = Box("cone", Range(0.6, 0.7), wall=Range(0.28, 0.28), half_angle=Range(0.4, 0.4))
+    >>> factor = radial_over(box).numbers["flow_factor"]
+    >>> round(factor.low.value, 4), round(factor.high.value, 4)
+    (1.4641, 1.589)
     """
     hoppers = BoxedHoppers(box)
     return _answer(hoppers, radial_numbers(hoppers), hoppers.radial_labels, normal)
@@ -94,6 +103,14 @@ def stability_over(
     InvalidParameterError
         If the box is a single hopper, of another than Mohr-Coulomb material, or asymmetric
         disturbances of a cone are asked for.
+
+    Examples
+    --------
+    >>> from hopper.uncertainty.box import Box, Range
+    >>> from hopper.uncertainty.ranged import stability_over
+    >>> box = Box("cone", Range(0.4, 0.6), wall=Range(0.2, 0.2), half_angle=Range(0.2, 0.2))
+    >>> round(stability_over(box).shares["stable"].value, 2)
+    0.71
     """
     hoppers = BoxedHoppers(box, disturbances)
     if box.condition != MOHR_COULOMB:

@@ -1,8 +1,11 @@
 """Shares of a box and probabilities by quasi Monte Carlo, with errors of their own.
 
 Points are Sobol's, scrambled at random: every scrambling gives an unbiased share, and how far those
-of independent scramblings scatter is its error [Owen, Monte Carlo theory, methods and examples,
-2013, ch. 17].
+of independent scramblings scatter is its error [OW]_.
+
+References
+----------
+.. [OW] A. B. Owen, Monte Carlo theory, methods and examples (2013), ch. 17.
 """
 
 from collections import Counter
