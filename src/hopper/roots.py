@@ -34,6 +34,12 @@ def root_between(
         If ``function`` has one sign at both ends, or a value is not a number.
     ConvergenceError
         If it takes more than 200 steps.
+
+    Examples
+    --------
+    >>> from hopper.roots import root_between
+    >>> root_between(lambda x: x**2 - 2, 0, 2)
+    1.4142135623730954
     """
     x, other = low, high  # the newest place, and one where the function has the other sign
     at_x, at_other = _value(function, low), _value(function, high)

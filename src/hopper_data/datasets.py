@@ -55,6 +55,16 @@ def dataset(
         Dimensions in front of those of every variable in ``table``, separated by spaces.
     attributes : mapping, optional
         Global attributes.
+
+    Examples
+    --------
+    >>> from hopper_data.datasets import dataset
+    >>> from hopper_data.inputs import solution_of
+    >>> from hopper_data.tables import number
+    >>> solution = solution_of("cone", delta_deg=40, half_angle_deg=20, mu=0.3)
+    >>> found = dataset(solution, [number("sigma_axis", "stress on the axis")])
+    >>> found.data["sigma_axis"][2]
+    {'long_name': 'stress on the axis', 'units': '1'}
     """
     data = _variables(result, table, tuple(leading.split()))
     return CfDataset(data, _variables(result, coordinates, ()), attributes or {})

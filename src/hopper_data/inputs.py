@@ -20,6 +20,12 @@ def hopper_of(
     ------
     InvalidParameterError
         If a value is out of range or the combination is not modelled.
+
+    Examples
+    --------
+    >>> from hopper_data.inputs import hopper_of
+    >>> hopper_of("cone", delta_deg=40, half_angle_deg=20)
+    Hopper(cone, delta=40 deg, half_angle=20 deg, Mohr-Coulomb)
     """
     angles = radians(delta_deg), radians(half_angle_deg)
     return Hopper(as_geometry(geometry), *angles, yield_condition(model))
@@ -28,7 +34,14 @@ def hopper_of(
 def solution_of(
     geometry: str, delta_deg: float, half_angle_deg: float, mu: float, model: str = "mohr-coulomb"
 ) -> RadialSolution:
-    """Return the radial solution of the physical branch, as :func:`hopper_of`."""
+    """Return the radial solution of the physical branch, as :func:`hopper_of`.
+
+    Examples
+    --------
+    >>> from hopper_data.inputs import solution_of
+    >>> round(solution_of("cone", delta_deg=40, half_angle_deg=20, mu=0.3).sigma_wall, 6)
+    0.260314
+    """
     return solve_radial(hopper_of(geometry, delta_deg, half_angle_deg, model), atan(mu))
 
 

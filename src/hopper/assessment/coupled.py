@@ -88,6 +88,15 @@ def assess_coupled(hopper: Hopper, friction_angle: Radians) -> CoupledStability:
     ------
     InvalidParameterError
         If the friction is not valid, or the material is not von Mises.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial, yield_condition
+    >>> from hopper.assessment.coupled import assess_coupled
+    >>> hopper = Hopper("cone", 0.7, 0.2, yield_condition("von-mises"))
+    >>> found = assess_coupled(hopper, friction_angle=0.1)
+    >>> found.type, found.verdict
+    ('hyperbolic', 'stable')
     """
     require_angle("friction_angle", friction_angle, zero_allowed=True)
     try:

@@ -59,7 +59,16 @@ class Limits:
 
 @checked
 def assess_limits(hopper: Hopper) -> Limits:
-    """Return the limits of a hopper's wall friction."""
+    """Return the limits of a hopper's wall friction.
+
+    Examples
+    --------
+    >>> from hopper import Hopper
+    >>> from hopper.assessment.limits import assess_limits
+    >>> limits = assess_limits(Hopper("cone", delta=0.7, half_angle=0.35))
+    >>> limits.friction.end, round(limits.coefficient.value, 4)
+    ('fold', 0.4673)
+    """
     mass_flow = _mass_flow(hopper)
     try:
         friction = friction_limit(hopper)

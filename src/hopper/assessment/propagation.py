@@ -24,7 +24,18 @@ SHIFT = 1e-8
 def with_errors(
     solution: RadialSolution, numbers: Callable[[RadialSolution], Array]
 ) -> list[Quantity]:
-    """Return numbers computed from the fields, with what the fields' error makes of them."""
+    """Return numbers computed from the fields, with what the fields' error makes of them.
+
+    Examples
+    --------
+    >>> from numpy import array
+    >>> from hopper import Hopper, solve_radial
+    >>> from hopper.assessment.propagation import with_errors
+    >>> solution = solve_radial(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.3)
+    >>> [tau] = with_errors(solution, lambda one: array([one.member.tau]))
+    >>> round(tau.value, 6), tau.error < 1e-11
+    (8.435564, True)
+    """
     values = numbers(solution)
     errors = propagated(solution, lambda shifted: np.abs(numbers(shifted) - values))
     errors = errors + ROUNDING * np.abs(values)

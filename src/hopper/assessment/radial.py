@@ -71,6 +71,14 @@ def assess_radial(hopper: Hopper, friction_angle: Radians) -> RadialAssessment:
     ------
     HopperError
         As :func:`hopper.radial.solve_radial`.
+
+    Examples
+    --------
+    >>> from hopper import Hopper
+    >>> from hopper.assessment.radial import assess_radial
+    >>> found = assess_radial(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.3)
+    >>> round(found.sigma_wall.value, 6), round(found.flow_factor.value, 4)
+    (0.259154, 1.4503)
     """
     return describe_radial(solve_radial(hopper, friction_angle))
 

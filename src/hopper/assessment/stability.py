@@ -128,6 +128,15 @@ def assess_stability(
     ------
     HopperError
         As :func:`hopper.stability.modes.linear_stability`.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial
+    >>> from hopper.assessment.stability import assess_stability
+    >>> solution = solve_radial(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.3)
+    >>> found = assess_stability(solution)
+    >>> found.verdict, round(found.abscissa.value, 4), round(found.transient.growth.value, 3)
+    ('stable', -4.4827, 4.635)
     """
     result, modes, suprema = _with_errors(solution, disturbances, count)
     spectrum = _resolved_modes(solution, modes["symmetric"])

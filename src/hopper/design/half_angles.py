@@ -155,6 +155,13 @@ def flow_limit(material: Material) -> Quantity:
         If the material cannot transmit the wall's friction.
     ConvergenceError
         If it is not resolved.
+
+    Examples
+    --------
+    >>> from hopper.design.half_angles import flow_limit
+    >>> from hopper.design.material import Material
+    >>> round(flow_limit(Material("cone", delta=0.7, friction_angle=0.28)).value, 4)
+    0.5636
     """
     return _classical(material) if material.slips else _velocity(material)
 

@@ -49,6 +49,14 @@ def judge_hopper(
     ------
     InvalidParameterError
         If an angle is out of range, or asymmetric disturbances of a cone are asked for.
+
+    Examples
+    --------
+    >>> from hopper.design.judgement import judge_hopper
+    >>> from hopper.design.material import Material
+    >>> found = judge_hopper(Material("cone", delta=0.7, friction_angle=0.28), half_angle=0.35)
+    >>> found.pattern.mass_flow, found.stability.verdict, round(found.flow_factor.value, 3)
+    (True, 'stable', 1.467)
     """
     pattern = factor = stability = None
     material.hopper(half_angle)

@@ -90,6 +90,12 @@ def critical_stress(function: FlowFunction, factor: Positive) -> float:
     ------
     InvalidParameterError
         If they are nowhere equal; the message says which of both is larger.
+
+    Examples
+    --------
+    >>> from hopper.design.outlet import critical_stress, linear_flow_function
+    >>> critical_stress(linear_flow_function(intercept=1.0, slope=0.3), factor=2.0)
+    2.5
     """
     major, strength = function.major, function.strength
     excess = strength - major / factor

@@ -86,6 +86,13 @@ def tangency_friction(hopper: Hopper) -> float | None:
     ------
     InvalidParameterError
         If the material is not Mohr-Coulomb.
+
+    Examples
+    --------
+    >>> from hopper import Hopper
+    >>> from hopper.domain.borders import tangency_friction
+    >>> round(tangency_friction(Hopper("cone", delta=0.7, half_angle=0.2)), 4)
+    0.3351
     """
     require_mohr_coulomb(hopper)
     return friction_reaching(hopper, tangency_angle(hopper.delta))
@@ -93,7 +100,15 @@ def tangency_friction(hopper: Hopper) -> float | None:
 
 @checked
 def singular_velocity_friction(hopper: Hopper) -> float | None:
-    """Return the wall friction angle (radians) at which psi reaches pi/4, None as above."""
+    """Return the wall friction angle (radians) at which psi reaches pi/4, None as above.
+
+    Examples
+    --------
+    >>> from hopper import Hopper
+    >>> from hopper.domain.borders import singular_velocity_friction
+    >>> round(singular_velocity_friction(Hopper("wedge", delta=0.7, half_angle=0.2)), 4)
+    0.5723
+    """
     return friction_reaching(hopper, pi / 4)
 
 
@@ -109,6 +124,13 @@ def positive_stress_friction(hopper: Hopper) -> float | None:
         If not even a smooth wall has a radial solution.
     ConvergenceError
         If the radial solution of infinite stress on the axis is not resolved.
+
+    Examples
+    --------
+    >>> from hopper import Hopper
+    >>> from hopper.domain.borders import positive_stress_friction
+    >>> round(positive_stress_friction(Hopper("wedge", delta=0.15, half_angle=0.2)), 4)
+    0.1033
     """
     if smooth_wall_member(hopper).tau > 0:
         return 0.0

@@ -93,6 +93,14 @@ def sweep_friction(
     ------
     InvalidParameterError
         If the angles do not increase or lie outside [0, pi/2).
+
+    Examples
+    --------
+    >>> from hopper import Hopper
+    >>> from hopper.domain.stability_map import sweep_friction
+    >>> sweep = sweep_friction(Hopper("cone", delta=0.7, half_angle=0.35), [0.1, 0.3])
+    >>> sweep.abscissa.round(4)
+    array([-2.2805, -4.4827])
     """
     angles = np.asarray(friction_angles)
     if np.any(np.diff(angles) <= 0):

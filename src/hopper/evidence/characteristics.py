@@ -31,6 +31,13 @@ def real_characteristics(law: YieldCondition, s: Fraction, psi: float) -> int:
     """Return how many of the four characteristics of a radial stress state are real.
 
     ``s`` = sin(delta), ``psi`` in radians; a double one counts twice.
+
+    Examples
+    --------
+    >>> from hopper import yield_condition
+    >>> from hopper.evidence.characteristics import real_characteristics
+    >>> real_characteristics(yield_condition("von-mises"), s=0.6, psi=0.2)
+    4
     """
     return int(np.sum(np.abs(characteristic_normals(law, s, psi).imag) < _REAL))
 

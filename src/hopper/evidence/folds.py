@@ -56,6 +56,14 @@ def fold_mode(hopper: Hopper) -> FoldMode | None:
     ------
     ConvergenceError
         If the fold is not resolved.
+
+    Examples
+    --------
+    >>> from hopper import Hopper
+    >>> from hopper.evidence.folds import fold_mode
+    >>> mode = fold_mode(Hopper("cone", delta=0.7, half_angle=0.35))
+    >>> mode.before, mode.behind
+    (0, 1)
     """
     limit = friction_limit(hopper)
     if limit.end != "fold":

@@ -64,6 +64,14 @@ def sign_changes(
     ------
     InvalidParameterError
         If there are fewer than two places, they do not increase, or the width is not positive.
+
+    Examples
+    --------
+    >>> from math import cos
+    >>> from hopper.evidence.sign_changes import sign_changes
+    >>> [change] = sign_changes(cos, [1.0, 2.0], width=1e-6)
+    >>> round(change.place, 5)
+    1.5708
     """
     grid = np.asarray(places, dtype=float)
     if grid.ndim != 1 or grid.size < 2 or not np.all(np.diff(grid) > 0):

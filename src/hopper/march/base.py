@@ -98,6 +98,14 @@ def base_of(solution: RadialSolution, tilted: bool | None = None) -> Base:
         If the material is not Mohr-Coulomb.
     TangencyError
         If time is not to be tilted and psi of the radial field reaches pi/4 - delta/2.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial
+    >>> from hopper.march.base import base_of
+    >>> solution = solve_radial(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.3)
+    >>> base_of(solution).tilted
+    False
     """
     if solution.hopper.material != MOHR_COULOMB:
         raise InvalidParameterError(

@@ -71,6 +71,15 @@ def short_waves(base: Base) -> ShortWaves:
     ------
     InvalidParameterError
         If the hopper is a cone.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial
+    >>> from hopper.march.base import base_of
+    >>> from hopper.march.optics import short_waves
+    >>> solution = solve_radial(Hopper("wedge", delta=0.7, half_angle=0.2), friction_angle=0.2)
+    >>> round(short_waves(base_of(solution)).loop_time, 4)
+    0.1916
     """
     y = _leg(base)
     rates = _rates(base, y)

@@ -13,7 +13,17 @@ _NEAR_AXIS = 1e-7
 
 @checked
 def slopes(hopper: Hopper, theta: Row, sigma: Row, psi: Row) -> tuple[Array, Array]:
-    """Return d log(sigma)/d theta and d psi/d theta that the equations prescribe, shape (n,)."""
+    """Return d log(sigma)/d theta and d psi/d theta that the equations prescribe, shape (n,).
+
+    Examples
+    --------
+    >>> from numpy import array
+    >>> from hopper import Hopper
+    >>> from hopper.radial.equations import slopes
+    >>> dlog, dpsi = slopes(Hopper("wedge", 0.7, 0.2), array([0.1]), array([0.4]), array([0.1]))
+    >>> round(float(dpsi[0]), 4)
+    1.2033
+    """
     determinant, dlog, dpsi = flow(hopper, theta, sigma, psi)
     dlog, dpsi = dlog / determinant, dpsi / determinant
     near = np.abs(theta) < _NEAR_AXIS

@@ -87,6 +87,14 @@ def family(hopper: Hopper) -> Iterator[Member]:
     ------
     NoRadialSolutionError
         As :func:`smooth_wall_member`.
+
+    Examples
+    --------
+    >>> from hopper import Hopper
+    >>> from hopper.radial.family import family
+    >>> taus = [member.tau for member in family(Hopper("wedge", delta=0.7, half_angle=0.2))]
+    >>> taus == sorted(taus)
+    True
     """
     return family_from(smooth_wall_member(hopper))
 

@@ -104,6 +104,14 @@ def flow_curve(hopper: Hopper) -> FlowCurve | None:
     ------
     ConvergenceError
         If it is not resolved.
+
+    Examples
+    --------
+    >>> from hopper import Hopper
+    >>> from hopper.radial.flow_curve import flow_curve
+    >>> curve = flow_curve(Hopper("wedge", delta=0.7, half_angle=0.2))
+    >>> round(curve.half_angle(0.6).value, 4)
+    1.2467
     """
     return _curve(replace(hopper, half_angle=WIDEST))
 

@@ -11,7 +11,15 @@ from hopper.radial.solution import RadialSolution
 
 @checked
 def geometry_factor(hopper: Hopper) -> float:
-    """Return Jenike's H(theta_w): 2 + theta_w / 60 deg (cone) or 1 + theta_w / 180 deg (wedge)."""
+    """Return Jenike's H(theta_w): 2 + theta_w / 60 deg (cone) or 1 + theta_w / 180 deg (wedge).
+
+    Examples
+    --------
+    >>> from hopper import Hopper
+    >>> from hopper.radial.flow_factor import geometry_factor
+    >>> round(geometry_factor(Hopper("cone", delta=0.7, half_angle=0.35)), 4)
+    2.3342
+    """
     angle = degrees(hopper.half_angle)
     return 2 + angle / 60 if hopper.geometry == "cone" else 1 + angle / 180
 

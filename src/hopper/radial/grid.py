@@ -151,6 +151,13 @@ def half_grid(
     """Return the grid of ``size`` points on (0, half_angle], radians, or with the axis if centred.
 
     Its arrays are read-only.
+
+    Examples
+    --------
+    >>> from hopper.radial.grid import half_grid
+    >>> grid = half_grid(8, half_angle=0.2)
+    >>> round(float(grid.weights @ grid.theta**2) * 3 / 0.2**3, 12)
+    1.0
     """
     return mapped_grid(size, half_angle, Map(clustering), centred=centred)
 

@@ -62,6 +62,13 @@ def limiting_wall_angle(hopper: Hopper) -> float:
     ------
     InvalidParameterError
         As :func:`limiting_fields`.
+
+    Examples
+    --------
+    >>> from hopper import Hopper
+    >>> from hopper.radial.mass_flow import limiting_wall_angle
+    >>> round(limiting_wall_angle(Hopper("cone", delta=0.7, half_angle=0.35)), 4)
+    0.5753
     """
     return _apex_angle(hopper) - hopper.half_angle
 
@@ -74,6 +81,13 @@ def mass_flow_friction_angle(hopper: Hopper) -> float:
     ------
     InvalidParameterError
         As :func:`limiting_fields`.
+
+    Examples
+    --------
+    >>> from hopper import Hopper
+    >>> from hopper.radial.mass_flow import mass_flow_friction_angle
+    >>> round(mass_flow_friction_angle(Hopper("cone", delta=0.7, half_angle=0.35)), 4)
+    0.4359
     """
     return max(0.0, hopper.material.friction_angle(hopper.delta, limiting_wall_angle(hopper)))
 

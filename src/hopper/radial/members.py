@@ -55,6 +55,13 @@ def number_of_solutions(hopper: Hopper, friction_angle: float) -> int:
         As :func:`smooth_wall_member`.
     ConvergenceError
         If the end of the family is not resolved.
+
+    Examples
+    --------
+    >>> from hopper import Hopper
+    >>> from hopper.radial.members import number_of_solutions
+    >>> number_of_solutions(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.43)
+    1
     """
     require_angle("friction_angle", friction_angle, zero_allowed=True)
     psi_wall = hopper.material.wall_angle(hopper.delta, friction_angle)

@@ -56,7 +56,16 @@ class VelocityField:
 
 @checked
 def decay_exponent(solution: RadialSolution) -> float:
-    """Return c in u' = -c u tan 2psi: 3 (cone), 2 (wedge), sqrt(12) (von Mises)."""
+    """Return c in u' = -c u tan 2psi: 3 (cone), 2 (wedge), sqrt(12) (von Mises).
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial
+    >>> from hopper.radial.velocity import decay_exponent
+    >>> solution = solve_radial(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.3)
+    >>> decay_exponent(solution)
+    3.0
+    """
     hopper = solution.hopper
     return sqrt(12) if hopper.material == VON_MISES else 2.0 + hopper.curvature
 

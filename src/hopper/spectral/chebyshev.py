@@ -70,6 +70,12 @@ def nodes(n: int) -> Array:
     ------
     InvalidParameterError
         If there are fewer than 2 points or more than 16384.
+
+    Examples
+    --------
+    >>> from hopper.spectral.chebyshev import nodes
+    >>> nodes(3)
+    array([-1.,  0.,  1.])
     """
     _require_points("n", n, 2, _MOST_POINTS)
     return _frozen(np.sin(np.pi * np.arange(1 - n, n, 2) / (2 * (n - 1))))
@@ -84,6 +90,12 @@ def differentiation_matrix(n: int) -> Array:
     ------
     InvalidParameterError
         If there are fewer than 2 points or more than 16384.
+
+    Examples
+    --------
+    >>> from hopper.spectral.chebyshev import differentiation_matrix, nodes
+    >>> (differentiation_matrix(4) @ nodes(4) ** 2 / 2).round(12)
+    array([-1. , -0.5,  0.5,  1. ])
     """
     _require_points("n", n, 2, _MOST_POINTS)
     angle = np.pi * np.arange(n) / (2 * (n - 1))
@@ -110,6 +122,12 @@ def clenshaw_curtis_weights(n: int) -> Array:
     ------
     InvalidParameterError
         If there are fewer than 2 points or more than 16384.
+
+    Examples
+    --------
+    >>> from hopper.spectral.chebyshev import clenshaw_curtis_weights, nodes
+    >>> round(float(clenshaw_curtis_weights(5) @ nodes(5) ** 4), 12)
+    0.4
     """
     _require_points("n", n, 2, _MOST_POINTS)
     even = np.arange(0, n, 2)
@@ -142,6 +160,12 @@ def interpolation_matrix(n: int, x: RealRow) -> Array:
     InvalidParameterError
         If there are fewer than 2 points or more than 16384,
         or x is not a row of numbers near [-1, 1].
+
+    Examples
+    --------
+    >>> from hopper.spectral.chebyshev import interpolation_matrix, nodes
+    >>> (interpolation_matrix(4, [0.5]) @ nodes(4) ** 3).round(12)
+    array([0.125])
     """
     gap = np.asarray(x)[:, None] - nodes(n)
     row, column = np.nonzero(np.abs(gap) < _AT_NODE)
@@ -164,6 +188,12 @@ def coefficients(values: _Values) -> Array:
     ------
     InvalidParameterError
         If there are fewer than 2 values.
+
+    Examples
+    --------
+    >>> from hopper.spectral.chebyshev import coefficients, nodes
+    >>> coefficients(2 * nodes(4) ** 2 - 1).round(12) + 0.0
+    array([0., 0., 1., 0.])
     """
     _require_rows(values, 2)
     n = len(values)

@@ -36,6 +36,13 @@ def relative_changes(fine: ComplexRow, coarse: ComplexRow, matching: Matching) -
     ------
     InvalidParameterError
         If the eigenvalues are not two rows of finite numbers, or the matching is unknown.
+
+    Examples
+    --------
+    >>> from numpy import array
+    >>> from hopper.spectral.matching import relative_changes
+    >>> relative_changes(array([1.0 + 0j, 2.0]), array([1.0 + 0j, 2.1]), "nearest")
+    array([0.  , 0.05])
     """
     distance = _relative_distances(fine, coarse)
     if matching == "nearest":

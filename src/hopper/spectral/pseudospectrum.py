@@ -182,6 +182,15 @@ def kreiss_lower_bound(grid: Pseudospectrum, shift: float = 0.0) -> tuple[float,
     ------
     InvalidParameterError
         If no grid point has Re z > shift, or shift is not finite.
+
+    Examples
+    --------
+    >>> from hopper import pseudospectrum, schur_form
+    >>> from hopper.spectral.pseudospectrum import kreiss_lower_bound
+    >>> form = schur_form([[-1.0, 9.0], [0.0, -2.0]])
+    >>> grid = pseudospectrum(form, [0.1, 0.5, 1.0], [-0.1, 0.0, 0.1])
+    >>> round(kreiss_lower_bound(grid)[0], 4)
+    1.6126
     """
     right = grid.real > shift
     if not right.any():
@@ -207,6 +216,14 @@ def eigenvalue_condition_numbers(form: SchurForm) -> tuple[Complex, Array]:
     ------
     InvalidParameterError
         If an eigenvalue is outside the range of numbers.
+
+    Examples
+    --------
+    >>> from hopper import schur_form
+    >>> from hopper.spectral.pseudospectrum import eigenvalue_condition_numbers
+    >>> values, conditions = eigenvalue_condition_numbers(schur_form([[1.0, 9.0], [0.0, 2.0]]))
+    >>> conditions.round(4)
+    array([9.0554, 9.0554])
     """
     result: Any = scipy.linalg.eig(form.triangle, left=True, right=True)  # the stubs miscount
     values, left, right = result

@@ -106,6 +106,13 @@ def resolvent_norm(forms: Sequence[SchurForm], frequencies: RealLike) -> Array:
     ------
     InvalidParameterError
         If no part is given, or a frequency is not finite.
+
+    Examples
+    --------
+    >>> from hopper import schur_form
+    >>> from hopper.spectral.sensitivity import resolvent_norm
+    >>> resolvent_norm([schur_form([[1.0, 9.0], [0.0, 2.0]])], [0.0, 1.0]).round(4)
+    array([4.6356, 2.9646])
     """
     if not forms:
         raise InvalidParameterError("forms is empty: give the form of at least one part")

@@ -80,6 +80,14 @@ def basis_of(matrix: Array, weight: Array, kept: Complex) -> ModalBasis:
         eigenvectors are linearly dependent to rounding.
     ConvergenceError
         If LAPACK finds no eigenvalues.
+
+    Examples
+    --------
+    >>> from numpy import array, ones
+    >>> from hopper.spectral.transient import basis_of
+    >>> basis = basis_of(array([[1.0, 9.0], [0.0, 2.0]]), ones(2), array([1.0 + 0j, 2.0]))
+    >>> basis.size, basis.abscissa
+    (2, 2.0)
     """
     exponent = exponent_of(square("matrix", matrix))
     root = weight_roots(weight, len(matrix))
@@ -143,6 +151,14 @@ def condition_number(bases: Sequence[ModalBasis]) -> float:
     ------
     InvalidParameterError
         If no basis is given.
+
+    Examples
+    --------
+    >>> from numpy import array, ones
+    >>> from hopper.spectral.transient import basis_of, condition_number
+    >>> basis = basis_of(array([[1.0, 9.0], [0.0, 2.0]]), ones(2), array([1.0 + 0j, 2.0]))
+    >>> round(condition_number([basis]), 3)
+    18.055
     """
     require_modes(bases)
     values = [np.linalg.svd(basis.factor, compute_uv=False) for basis in bases]
@@ -165,6 +181,14 @@ def propagator_norm(bases: Sequence[ModalBasis], elapsed: RealLike) -> Array:
     InvalidParameterError
         If a time is negative or not finite, or no basis is given; or if a time is so long that the
         norm exceeds 1e308 or a phase is lost in rounding.
+
+    Examples
+    --------
+    >>> from numpy import array, ones
+    >>> from hopper.spectral.transient import basis_of, propagator_norm
+    >>> basis = basis_of(array([[1.0, 9.0], [0.0, 2.0]]), ones(2), array([1.0 + 0j, 2.0]))
+    >>> propagator_norm([basis], [0.0, 1.0]).round(4)
+    array([ 1.    , 42.7653])
     """
     return _norm(bases, np.asarray(elapsed), 0.0)
 

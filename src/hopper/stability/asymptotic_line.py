@@ -71,6 +71,14 @@ def asymptotic_line(
         If the material is not Mohr-Coulomb.
     ConvergenceError
         If the quadrature does not reach 1e-6, relative; psi is too close to its singular value.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial
+    >>> from hopper.stability.asymptotic_line import asymptotic_line
+    >>> solution = solve_radial(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.3)
+    >>> round(asymptotic_line(solution).abscissa, 6)
+    -4.555047
     """
     line = first
     for size in LINE_SIZES[bool(first) :]:

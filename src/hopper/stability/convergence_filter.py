@@ -63,6 +63,16 @@ def convergence_filter(
         If the meshes are in the wrong order or the tolerance is not in (0, 1).
     ConvergenceError
         If nothing is kept.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial
+    >>> from hopper.stability.convergence_filter import convergence_filter
+    >>> from hopper.stability.mesh_spectrum import mesh_spectrum
+    >>> solution = solve_radial(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.3)
+    >>> fine, coarse = (mesh_spectrum(solution, n) for n in (64, 48))
+    >>> int(convergence_filter(fine, coarse, tolerance=1e-3).kept.sum())
+    15
     """
     require_finer(fine.n, coarse.n)
     if not 0 < tolerance < 1:

@@ -54,6 +54,14 @@ def mesh_spectrum(solution: RadialSolution, n: int) -> MeshSpectrum:
     ------
     InvalidParameterError
         If n is odd or less than 16.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial
+    >>> from hopper.stability.mesh_spectrum import mesh_spectrum
+    >>> solution = solve_radial(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.3)
+    >>> mesh_spectrum(solution, 48).eigenvalues.size
+    94
     """
     require_even(n)
     if n < _LEAST_NODES:

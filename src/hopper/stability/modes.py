@@ -330,7 +330,16 @@ def partner_changes(fine: ComplexRow, coarse: ComplexRow) -> Array:
 
 @checked
 def upper_eigenvalues(solution: RadialSolution, size: int, parity: Parity = "symmetric") -> Complex:
-    """Return the eigenvalues with Im >= 0 on ``size`` half-grid points, by increasing modulus."""
+    """Return the eigenvalues with Im >= 0 on ``size`` half-grid points, by increasing modulus.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial
+    >>> from hopper.stability.modes import upper_eigenvalues
+    >>> solution = solve_radial(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.3)
+    >>> upper_eigenvalues(solution, 24)[:2].round(4)
+    array([-14.2776 +0.j   ,  -4.4827+16.902j])
+    """
     return _upper(np.linalg.eigvals(tilted_matrix(solution, size, parity)))
 
 

@@ -45,6 +45,14 @@ def paper_abscissa(
         If a mesh is odd or too small, or the meshes are in the wrong order.
     ConvergenceError
         If nothing is kept.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial
+    >>> from hopper.stability.paper_abscissa import paper_abscissa
+    >>> solution = solve_radial(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.3)
+    >>> round(paper_abscissa(solution, 64, 48, tolerance=1e-3).physical, 3)
+    -4.483
     """
     require_finer(n, coarse_n)
     fine = {half: _eigenvalues(solution, n, half) for half in HALVES}

@@ -36,6 +36,14 @@ def paper_matrix(solution: RadialSolution, n: int, psi_scale: Positive = 1.0) ->
     ------
     InvalidParameterError
         If n is odd (a node on the axis, where the equations are singular) or less than 4.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial
+    >>> from hopper.stability.paper_matrix import paper_matrix
+    >>> solution = solve_radial(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.3)
+    >>> paper_matrix(solution, 20).shape
+    (38, 38)
     """
     require_even(n)
     x = chebyshev.nodes(n)

@@ -30,14 +30,29 @@ CONE_VARIANTS: tuple[ConeVariant, ...] = ("bessel", "kummer", "legendre")
 
 @checked
 def abscissa(geometry: Geometry, delta: RealLike) -> Array:
-    """Return the abscissa of the line of eigenvalues for ``delta`` in radians, same shape."""
+    """Return the abscissa of the line of eigenvalues for ``delta`` in radians, same shape.
+
+    Examples
+    --------
+    >>> from hopper.stability.smooth_wall import abscissa
+    >>> abscissa("wedge", [0.3, 0.7]).round(4)
+    array([1.5805, 0.1893])
+    """
     s = np.sin(np.asarray(delta, dtype=float))
     return (2 - 3 * s) / (1 - s) if geometry == "wedge" else (5 - 9 * s) / (2 * (1 - s))
 
 
 @checked
 def neutral_delta(geometry: Geometry) -> float:
-    """Return the delta (radians) at which the abscissa vanishes."""
+    """Return the delta (radians) at which the abscissa vanishes.
+
+    Examples
+    --------
+    >>> from math import degrees
+    >>> from hopper.stability.smooth_wall import neutral_delta
+    >>> round(degrees(neutral_delta("cone")), 3)
+    33.749
+    """
     return asin(2 / 3) if geometry == "wedge" else asin(5 / 9)
 
 
@@ -61,6 +76,13 @@ def wedge_eigenvalues(delta: Radians, half_angle: Radians, count: int) -> tuple[
     -------
     physical, mirrored : complex arrays, shape (2 count,)
         Of sine (odd omega) and cosine (even omega) modes.
+
+    Examples
+    --------
+    >>> from hopper.stability.smooth_wall import wedge_eigenvalues
+    >>> low, high = wedge_eigenvalues(delta=0.7, half_angle=0.2, count=2)
+    >>> low.round(3)
+    array([0.189+33.651j, 0.189+67.478j, 0.189-33.651j, 0.189-67.478j])
     """
     s = _checked(delta, half_angle, count)
     index = np.arange(1, count + 1)
@@ -81,6 +103,12 @@ def cone_wavenumbers(half_angle: Radians, count: int, variant: ConeVariant = "le
     ------
     InvalidParameterError
         If the angle is out of range, count is not positive, or the variant is unknown.
+
+    Examples
+    --------
+    >>> from hopper.stability.smooth_wall import cone_wavenumbers
+    >>> cone_wavenumbers(half_angle=0.35, count=2).round(4)
+    array([119.8549, 401.7854])
     """
     _checked(pi / 4, half_angle, count)
     if variant not in CONE_VARIANTS:
@@ -115,6 +143,12 @@ def cone_eigenvalues(delta: Radians, mu: RealRow) -> Complex:
     ------
     InvalidParameterError
         If delta is out of range.
+
+    Examples
+    --------
+    >>> from hopper.stability.smooth_wall import cone_eigenvalues, cone_wavenumbers
+    >>> cone_eigenvalues(0.7, cone_wavenumbers(half_angle=0.35, count=1)).round(4)
+    array([-1.1214+22.9711j, -1.1214-22.9711j])
     """
     require_angle("delta", delta)
     s = np.sin(delta)
@@ -130,6 +164,12 @@ def oscillation_threshold(half_angle: RealLike) -> Array:
     """Return f(theta_w): the least sin(delta) at which an eigenvalue of (4.9) is real.
 
     ``half_angle`` in radians, below :func:`largest_distinct_half_angle`.
+
+    Examples
+    --------
+    >>> from hopper.stability.smooth_wall import oscillation_threshold
+    >>> oscillation_threshold([0.2, 0.4]).round(4)
+    array([0.9946, 0.9782])
     """
     angle2 = np.asarray(half_angle, dtype=float) ** 2
     x2 = scipy.special.jn_zeros(1, 1)[0] ** 2

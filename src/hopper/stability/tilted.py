@@ -179,6 +179,15 @@ def tilt(solution: RadialSolution, size: int = 64) -> tuple[Array, Array]:
 
     h is even, rises from the axis to the wall and is bounded: data on t' = const lie on
     r = r0 exp(-h(theta)), and decay in t' is decay down the hopper.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial
+    >>> from hopper.stability.tilted import tilt
+    >>> solution = solve_radial(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.3)
+    >>> theta, height = tilt(solution)
+    >>> round(float(height[-1]), 4)
+    0.1279
     """
     require_mohr_coulomb(solution.hopper)
     grid = half_grid(size, solution.hopper.half_angle)
@@ -198,6 +207,14 @@ def first_tangency(solution: RadialSolution) -> float | None:
     ------
     InvalidParameterError
         If the material is not Mohr-Coulomb.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial
+    >>> from hopper.stability.tilted import first_tangency
+    >>> solution = solve_radial(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.37)
+    >>> round(first_tangency(solution), 4)
+    0.1482
     """
     require_mohr_coulomb(solution.hopper)
     return solution.first_angle_with(tangency_angle(solution.hopper.delta))
@@ -205,5 +222,12 @@ def first_tangency(solution: RadialSolution) -> float | None:
 
 @checked
 def tangency_angle(delta: float) -> float:
-    """Return the psi (radians) at which a characteristic is tangent to the arcs r = const."""
+    """Return the psi (radians) at which a characteristic is tangent to the arcs r = const.
+
+    Examples
+    --------
+    >>> from hopper.stability.tilted import tangency_angle
+    >>> round(tangency_angle(delta=0.7), 4)
+    0.4354
+    """
     return np.pi / 4 - delta / 2

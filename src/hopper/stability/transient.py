@@ -74,6 +74,18 @@ def tilted_basis(solution: RadialSolution, m: int, parity: Parity, kept: Complex
     ------
     InvalidParameterError
         If nothing is kept, or an eigenvalue is not one of this mesh.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial
+    >>> from hopper.spectral.transient import condition_number
+    >>> from hopper.stability.modes import upper_eigenvalues
+    >>> from hopper.stability.transient import tilted_basis
+    >>> solution = solve_radial(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.3)
+    >>> mode = upper_eigenvalues(solution, 32)[1]
+    >>> basis = tilted_basis(solution, 32, "symmetric", [mode, mode.conj()])
+    >>> basis.size
+    2
     """
     grid = mode_grid(solution, m, parity)
     weights = _l2_weights(solution.hopper, grid)

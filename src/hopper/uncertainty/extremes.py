@@ -62,6 +62,13 @@ def extremes(number: Callable[[Array], float], samples: RealLike) -> tuple[Extre
     ------
     InvalidParameterError
         If the samples have another shape.
+
+    Examples
+    --------
+    >>> from hopper.uncertainty.extremes import extremes
+    >>> low, high = extremes(lambda p: float((p[0] - 0.3) ** 2), [[0.0], [0.5], [1.0]])
+    >>> round(low.value, 6), round(high.value, 6)
+    (0.0, 0.49)
     """
     low, high = least(number, samples), least(lambda point: -number(point), samples)
     if low is None or high is None:

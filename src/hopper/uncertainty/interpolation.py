@@ -31,6 +31,12 @@ def interpolated(table: RealLike, points: RealLike) -> Array:
     ------
     InvalidParameterError
         If the shapes do not go together.
+
+    Examples
+    --------
+    >>> from hopper.uncertainty.interpolation import interpolated, interpolation_nodes
+    >>> interpolated(interpolation_nodes(5) ** 3, [[0.5]])
+    array([0.125])
     """
     values, places = np.asarray(table, dtype=float), np.asarray(points, dtype=float)
     if places.ndim != 2 or values.ndim != places.shape[1] or len(set(values.shape)) > 1:

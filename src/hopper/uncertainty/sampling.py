@@ -45,6 +45,12 @@ def points_in_box(dimensions: int, power: int) -> Array:
     ------
     InvalidParameterError
         If there is no dimension, or ``power`` is not from 0 to 16.
+
+    Examples
+    --------
+    >>> from hopper.uncertainty.sampling import points_in_box
+    >>> points_in_box(dimensions=2, power=5).shape
+    (8, 32, 2)
     """
     if not (1 <= dimensions <= 16 and 0 <= power <= 16):
         raise InvalidParameterError(
@@ -104,6 +110,13 @@ def shares(labels: Callable[[Array], Iterable[str]], points: RealLike) -> dict[s
     ------
     InvalidParameterError
         If the points have another shape.
+
+    Examples
+    --------
+    >>> from hopper.uncertainty.sampling import points_in_box, shares
+    >>> points = points_in_box(dimensions=2, power=8)
+    >>> round(shares(lambda p: ["left"] if p[0] < 0.3 else [], points)["left"].value, 2)
+    0.3
     """
     shifts = np.asarray(points, dtype=float)
     if shifts.ndim != 3 or len(shifts) < 2 or not shifts.shape[1]:

@@ -67,6 +67,14 @@ def equation_type(solution: RadialSolution) -> EquationType:
     """Return the type of the equations of a radial flow, over the whole cone.
 
     The largest psi decides, which lies inside wide cones and not at their wall.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial, yield_condition
+    >>> from hopper.von_mises.characteristics import equation_type
+    >>> hopper = Hopper("cone", 0.7, 0.2, yield_condition("von-mises"))
+    >>> equation_type(solve_radial(hopper, friction_angle=0.1)).kind
+    'hyperbolic'
     """
     delta, s = solution.hopper.delta, solution.hopper.s
     if delta >= TENSION:
@@ -82,7 +90,14 @@ def equation_type(solution: RadialSolution) -> EquationType:
 
 @checked
 def sonic_angle(s: Fraction) -> float:
-    """Return the psi (radians) at which the type changes, cos 2psi = sqrt(3) s; s = sin(delta)."""
+    """Return the psi (radians) at which the type changes, cos 2psi = sqrt(3) s; s = sin(delta).
+
+    Examples
+    --------
+    >>> from hopper.von_mises.characteristics import sonic_angle
+    >>> round(sonic_angle(s=0.5), 4)
+    0.2618
+    """
     return float(np.arccos(min(1.0, sqrt(3) * s))) / 2
 
 

@@ -87,6 +87,14 @@ def growth(solution: RadialSolution, tolerance: float = 1e-9, first: int | None 
         If psi reaches pi/4.
     ConvergenceError
         If too few modes or the strips are not resolved.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial, yield_condition
+    >>> from hopper.von_mises.growth import growth
+    >>> hopper = Hopper("cone", 0.7, 0.2, yield_condition("von-mises"))
+    >>> round(growth(solve_radial(hopper, friction_angle=0.1)).abscissa, 4)
+    -0.0207
     """
     modes = low_modes(solution, tolerance, first)
     return growth_of(modes, high_frequency(solution))

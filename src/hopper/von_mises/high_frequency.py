@@ -111,6 +111,14 @@ def high_frequency(solution: RadialSolution) -> HighFrequency:
         If psi reaches pi/4.
     ConvergenceError
         If the quadratures do not reach 1e-5: the flow changes its type inside, or nearly so.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial, yield_condition
+    >>> from hopper.von_mises.high_frequency import high_frequency
+    >>> hopper = Hopper("cone", 0.7, 0.2, yield_condition("von-mises"))
+    >>> high_frequency(solve_radial(hopper, friction_angle=0.1)).phi.round(4)
+    array([0.3532, 0.1989])
     """
     for size in _SIZES:
         grid = half_grid(size, solution.hopper.half_angle)

@@ -84,6 +84,12 @@ def neutral_point(
         If an angle is out of range.
     ConvergenceError
         If the modes next to the neutral point are not resolved.
+
+    Examples
+    --------
+    >>> from hopper.von_mises.neutral import neutral_point
+    >>> round(neutral_point(half_angle=0.2, friction_angle=0.15).delta, 4)
+    0.7381
     """
     require_angle("half_angle", half_angle)
     require_angle("friction_angle", friction_angle, zero_allowed=True)

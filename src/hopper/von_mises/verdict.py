@@ -114,6 +114,14 @@ def judge(
     ------
     InvalidParameterError
         If the friction or the tolerance is not valid, or the material is not von Mises.
+
+    Examples
+    --------
+    >>> from hopper import Hopper, solve_radial, yield_condition
+    >>> from hopper.von_mises.verdict import judge
+    >>> hopper = Hopper("cone", 0.7, 0.2, yield_condition("von-mises"))
+    >>> judge(hopper, friction_angle=0.1).verdict
+    'stable'
     """
     require_angle("friction_angle", friction_angle, zero_allowed=True)
     _require_von_mises(hopper)
