@@ -4,7 +4,7 @@
 # make sbom     results/sbom.cdx.json, the packages of the locks; make audit: their known vulnerabilities
 # make docs     results/site/index.html, the site; make test-docs: its tests, also in a browser
 # make bench    measure the speed figures   make lock   resolve the dependencies anew (needs uv)
-# make figures/fig_3_1.png                  build one figure
+# make paper    the figures of the paper    make figures/fig_3_1.png  one figure
 # make cluster  the environment with Snakemake's SLURM executor; docs/cluster.md tells more
 # make slurm    build every figure with it
 # make check    compare artifacts and figures with what is stored in tests/figures
@@ -39,10 +39,13 @@ endif
 
 # Goals in the order given, also with -j: Snakemake runs jobs side by side.
 .NOTPARALLEL:
-.PHONY: figures resume test check references lint soak reliability bench gallery lock clean FORCE
+.PHONY: figures paper resume test check references lint soak reliability bench gallery lock clean FORCE
 
 figures: .venv/run.stamp
 	@$(SNAKEMAKE)
+
+paper: .venv/run.stamp
+	@$(SNAKEMAKE) paper
 
 # Snakemake locks a directory while it works; a run that was killed leaves the lock behind.
 resume: .venv/run.stamp

@@ -1,7 +1,7 @@
 """Gremaud, Matthews, Shearer (2000): every figure of the paper, from its equations.
 
-Targets: `snakemake` makes all figures and the claims ledger, `snakemake figures/fig_3_1.png` or
-`snakemake results/claims.html` one of them.
+Targets: `snakemake` makes all figures and the claims ledger, `snakemake paper` the figures of the
+paper, `snakemake figures/fig_3_1.png` or `snakemake results/claims.html` one of them.
 """
 
 
@@ -37,6 +37,12 @@ rule all:
         expand("figures/{figure}.{suffix}", figure=FIGURES, suffix=["png", "pdf"]),
         LEDGER,
         ["results/cases.csv"] if config["cases"] else [],
+
+
+rule paper:
+    """The figures of the paper, with the sound curves beside its own."""
+    input:
+        expand("figures/{figure}.{suffix}", figure=PAPER, suffix=["png", "pdf"]),
 
 
 # Of one's own command line only: a host of this workflow has other targets.

@@ -122,3 +122,11 @@ def test_touching_files_reruns_nothing(rebuilt):
 
 def test_one_figure_can_be_asked_for(fresh):
     assert fresh.reruns("figures/fig_3_1.png") == {"solve_radial/fig_3_1", "plot_fig_3_1/fig_3_1"}
+
+
+def test_the_figures_of_the_paper_are_a_target_and_need_no_maps(fresh):
+    wanted = fresh.reruns("paper") - {"paper"}
+    plots = {rule.split("/")[-1] for rule in wanted if rule.startswith("plot_")}
+    assert plots >= {"plot_fig_1_1", "fig_3_2", "plot_fig_4_1", "fig_4_2", "plot_fig_4_5"}
+    beyond = ("map", "von_mises", "march", "design", "case", "claims", "fig_domain_angle")
+    assert [rule for rule in wanted if any(word in rule for word in beyond)] == []

@@ -10,6 +10,12 @@ for line in configuration.bring_up_to_date(config, SCHEMA):
     logger.warning(line)
 
 FIGURES = [drawing.figure for drawing in entries.drawings(config)]
+# Those of the paper have its numbers; fig_4_5_map, which it has not, costs as much as all of them.
+PAPER = [
+    figure
+    for figure in FIGURES
+    if re.match(r"fig_\d_\d", figure) and figure != "fig_4_5_map" or figure == "fig_pseudospectrum"
+]
 MAP = config["stability_map"]
 VON_MISES = config["von_mises"]
 FORMULATIONS = ["paper", "physical"]
