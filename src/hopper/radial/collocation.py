@@ -21,7 +21,16 @@ from hopper.brief import brief
 from hopper.problem import Hopper
 from hopper.radial.equations import slopes
 from hopper.radial.grid import Grid, transfer
-from hopper.radial.steps import CLOSED, Unknown, closed_system, normal_weight, size_of, solved_by
+from hopper.radial.steps import (
+    CLOSED,
+    Unknown,
+    closed_system,
+    normal_weight,
+    rounding_of_rows,
+    rounding_of_unknowns,
+    size_of,
+    solved_by,
+)
 from hopper.spectral import chebyshev
 
 _NEWTON_STEPS = 25
@@ -222,15 +231,42 @@ def tail(log_ratio: Row, psi: Row) -> float:
     return float(max(np.abs(even).max(), np.abs(odd).max()))
 
 
-def _newton_step(hopper: Hopper, grid: Grid, closure: Closure, u: Array) -> tuple[Array, Array]:
-    """Return the Newton correction, and the derivative of u by the closure's value."""
+def _newton_step(
+    hopper: Hopper, grid: Grid, closure: Closure, u: Array, rounded: bool
+) -> tuple[Array, Array, Array]:
+    """Return Newton's correction, the derivative of u by the closure's value, and roundings."""
     residual, jacobian = closed_system(hopper, grid, closure.unknown, u)
     residual[-1] = u[CLOSED[closure.unknown]] - closure.value
     right = np.zeros((u.size, 2))
     right[:, 0] = -residual
     right[-1, 1] = 1.0
+    if rounded:
+        right = np.concatenate([right, rounding_of_rows(jacobian, u)], axis=1)
     solved = solved_by(jacobian, right)
-    return solved[:, 0], solved[:, 1]
+    return solved[:, 0], solved[:, 1], solved[:, 2:]
+
+
+def _iterated(
+    hopper: Hopper, grid: Grid, closure: Closure, u: Array, last_step: float, rounded: bool
+) -> tuple[Member, Array] | None:
+    column = CLOSED[closure.unknown]
+    first = size = 0.0
+    with np.errstate(over="ignore", invalid="ignore"):
+        for iteration in range(_NEWTON_STEPS):
+            previous = size
+            step, tangent, moved = _newton_step(hopper, grid, closure, u, rounded)
+            size = size_of(step, u)
+            u = u + step
+            # Linear, so met after one step but for rounding, which differs between processors.
+            u[column] = closure.value
+            if not isfinite(size) or np.abs(u[grid.size : -1]).max() > np.pi / 2:
+                return None
+            if iteration == 0:
+                first = size
+            # Small steps that no longer shrink are rounding themselves.
+            if size < last_step or (size < 1e-6 and size > previous / 2):
+                return Member(hopper, grid, closure, u, tangent, first), moved
+    return None
 
 
 @checked
@@ -242,24 +278,20 @@ def newton(
     Convergence is quadratic: after a step of size ``last_step`` the error is of the order of its
     square, by default of rounding size. The member's ``error`` is the size of the first step.
     """
-    column = CLOSED[closure.unknown]
-    first = size = 0.0
-    with np.errstate(over="ignore", invalid="ignore"):
-        for iteration in range(_NEWTON_STEPS):
-            previous = size
-            step, tangent = _newton_step(hopper, grid, closure, u)
-            size = size_of(step, u)
-            u = u + step
-            # Linear, so met after one step but for rounding, which differs between processors.
-            u[column] = closure.value
-            if not isfinite(size) or np.abs(u[grid.size : -1]).max() > np.pi / 2:
-                return None
-            if iteration == 0:
-                first = size
-            # Small steps that no longer shrink are rounding themselves.
-            if size < last_step or (size < 1e-6 and size > previous / 2):
-                return Member(hopper, grid, closure, u, tangent, first)
-    return None
+    found = _iterated(hopper, grid, closure, u, last_step, rounded=False)
+    return found and found[0]
+
+
+@checked
+def newton_with_rounding(
+    hopper: Hopper, grid: Grid, closure: Closure, u: Array, last_step: float
+) -> tuple[Member, float] | None:
+    """Return a member as :func:`newton` does, with what rounding of the equations makes of u."""
+    found = _iterated(hopper, grid, closure, u, last_step, rounded=True)
+    if found is None:
+        return None
+    member, moved = found
+    return member, float(rounding_of_unknowns(moved[None], member.u[None])[0])
 
 
 @checked

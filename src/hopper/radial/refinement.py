@@ -10,15 +10,17 @@ from dataclasses import replace
 from hopper.arguments import checked
 from hopper.errors import ConvergenceError, not_resolved_because
 from hopper.problem import Hopper
-from hopper.radial.collocation import FAR, Closure, Member, crude_start, newton, predicted
-from hopper.radial.grid import Grid, Map, half_grid, layer_clustering, mapped_grid, wall_bend
-from hopper.radial.steps import (
-    closed_system,
-    extrapolated,
-    rounding_of_rows,
-    rounding_of_unknowns,
-    solved_by,
+from hopper.radial.collocation import (
+    FAR,
+    Closure,
+    Member,
+    crude_start,
+    newton,
+    newton_with_rounding,
+    predicted,
 )
+from hopper.radial.grid import Grid, Map, half_grid, layer_clustering, mapped_grid, wall_bend
+from hopper.radial.steps import extrapolated
 
 # Half-grid sizes; a solution on one is confirmed on the next.
 SIZES = (12, 16, 24, 36, 54, 80, 120, 180, 270)
@@ -48,10 +50,12 @@ def refine(member: Member, tolerance: float = TOLERANCE) -> Member:
         if size <= member.grid.size:
             continue
         grid = grid_for(member, size, member.grid.map.clustering)
-        finer = newton(member.hopper, grid, member.closure, member.on(grid), _SHARP_STEP)
-        if finer is None:
+        start = member.on(grid)
+        found = newton_with_rounding(member.hopper, grid, member.closure, start, _SHARP_STEP)
+        if found is None:
             break
-        error, least = finer.error, rounding(finer)
+        finer, least = found
+        error, least = finer.error, least + rounding_of_closure(finer)
         alike = grid.map.plain == member.grid.map.plain
         if not alike:
             observed.clear()
@@ -68,15 +72,6 @@ def refine(member: Member, tolerance: float = TOLERANCE) -> Member:
         f"radial solution not resolved: {member.grid.size} half-grid points leave an error of "
         f"{member.error:.1e}; {not_resolved_because(member.psi_wall)}"
     )
-
-
-@checked
-def rounding(member: Member) -> float:
-    """Return what rounding makes of u: that of the closure and of the equations, magnified."""
-    hopper, u = member.hopper, member.u
-    _, jacobian = closed_system(hopper, member.grid, member.closure.unknown, u)
-    moved = solved_by(jacobian, rounding_of_rows(jacobian, u))
-    return float(rounding_of_unknowns(moved[None], u[None])[0]) + rounding_of_closure(member)
 
 
 @checked
