@@ -9,10 +9,13 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TypeVar
 
 import psutil
 
 from tests.workflow.conftest import Workflow
+
+_Found = TypeVar("_Found")
 
 
 @contextlib.contextmanager
@@ -57,8 +60,8 @@ def jobs_of(process: subprocess.Popen[str]) -> list[psutil.Process]:
     return [each for each in members if ".snakemake/scripts" in " ".join(_command(each)[:2])]
 
 
-def wait_for(condition: Callable[[], bool], seconds: float = 120) -> None:
-    """Return once the condition holds.
+def wait_for(condition: Callable[[], _Found | None], seconds: float = 120) -> _Found:
+    """Return what a condition finds, once it finds something.
 
     Raises
     ------
@@ -66,10 +69,25 @@ def wait_for(condition: Callable[[], bool], seconds: float = 120) -> None:
         If it does not within the time.
     """
     end = time.monotonic() + seconds
-    while not condition():
+    while not (found := condition()):
         if time.monotonic() > end:
             raise TimeoutError(f"not within {seconds:g} s: {condition}")
         time.sleep(0.02)
+    return found
+
+
+def held_job(process: subprocess.Popen[str]) -> psutil.Process:
+    """Return a job of a run, suspended, so that it does not end before something is done to it."""
+
+    def hold() -> psutil.Process | None:
+        for job in jobs_of(process):
+            with contextlib.suppress(psutil.NoSuchProcess):
+                job.suspend()
+                if job.status() == psutil.STATUS_STOPPED:
+                    return job
+        return None
+
+    return wait_for(hold)
 
 
 def resume(workflow: Workflow, *targets: str) -> None:

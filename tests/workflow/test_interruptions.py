@@ -13,7 +13,7 @@ import pytest
 from hopper_data.files import replacing
 from tests.reliability import comparison, record
 from tests.workflow import interruptions
-from tests.workflow.interruptions import jobs_of, killed_at_random, resume, started, wait_for
+from tests.workflow.interruptions import held_job, killed_at_random, resume, started
 
 pytestmark = pytest.mark.workflow
 SEED = 2000
@@ -81,9 +81,7 @@ def test_killed_at_many_random_moments(built, copy_workflow, tmp_path):
 @pytest.mark.soak
 def test_one_job_killed(built, fresh):
     with started(fresh, *SOME) as process:
-        wait_for(lambda: bool(jobs_of(process)))
-        victim = jobs_of(process)[0]
-        victim.kill()
+        held_job(process).kill()
         assert process.wait(timeout=120) == 1
     log = (fresh.path / "run.log").read_text(encoding="utf-8")
     assert "Error in rule" in log
@@ -98,10 +96,7 @@ def test_one_job_killed(built, fresh):
 @pytest.mark.soak
 def test_two_runs_at_once(built, fresh):
     with started(fresh, *SOME) as process:
-        wait_for(lambda: bool(jobs_of(process)))
-        at_work = jobs_of(process)[0]
-        # Held, so that the first run cannot end before the second begins.
-        at_work.suspend()
+        at_work = held_job(process)  # so that the first run cannot end before the second begins
         second = fresh.snakemake(*SOME)
         at_work.resume()
         assert second.returncode == 1

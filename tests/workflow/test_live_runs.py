@@ -9,7 +9,7 @@ import pytest
 
 from hopper_workflow import live
 from tests.workflow.conftest import with_make
-from tests.workflow.interruptions import jobs_of, started, wait_for
+from tests.workflow.interruptions import held_job, started
 
 pytestmark = pytest.mark.workflow
 
@@ -54,9 +54,7 @@ def test_a_process_at_work_is_found_without_a_lock(tmp_path, monkeypatch):
 def test_make_resume_leaves_a_live_run_alone(fresh):
     target = "figures/fig_1_1.png"
     with started(fresh, target) as process:
-        wait_for(lambda: bool(jobs_of(process)))
-        job = jobs_of(process)[0]
-        job.suspend()  # or else the run may end before it is found
+        job = held_job(process)  # or else the run may end before it is found
         done = with_make(fresh, "resume")
         job.resume()
         assert done.returncode != 0
