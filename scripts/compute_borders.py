@@ -14,7 +14,8 @@ from hopper.domain.growth import ROOT_TOLERANCE
 from hopper.domain.neutral_curve import NeutralCurve, neutral_curve
 from hopper.domain.neutral_points import neutral_delta
 from hopper.problem import Geometry, Hopper, as_geometry
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.domain import BORDERS, NEUTRAL_CURVE
 from hopper_data.tables import angle, in_degrees, within
 

@@ -11,7 +11,8 @@ from hopper_workflow import artifacts, jobs, ranges
 from hopper.design.charts import chart
 from hopper.problem import as_geometry
 from hopper_data.charts import CHARTS, side_by_side
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.tables import in_degrees
 
 

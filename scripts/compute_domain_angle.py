@@ -12,7 +12,8 @@ from hopper.arrays import Array
 from hopper.domain.borders import borders, stable_area
 from hopper.domain.neutral_curve import NeutralCurve, neutral_curve
 from hopper.domain.neutral_points import neutral_delta
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.tables import Table, angle, flag, in_degrees
 
 

@@ -6,7 +6,8 @@ import numpy as np
 
 from hopper_workflow import artifacts, jobs
 from hopper.stability.smooth_wall import cone_eigenvalues, cone_wavenumbers, wedge_eigenvalues
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.tables import complex_number, flag
 
 

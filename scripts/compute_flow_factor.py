@@ -11,7 +11,8 @@ from hopper.errors import NoRadialSolutionError
 from hopper.problem import Hopper
 from hopper.radial.flow_factor import flow_factor
 from hopper.radial.solution import solve_radial
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.inputs import hopper_of
 from hopper_data.tables import in_degrees, number, text
 

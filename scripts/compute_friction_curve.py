@@ -13,7 +13,8 @@ from hopper.domain.borders import tangency_friction
 from hopper.domain.stability_map import sweep_friction
 from hopper.problem import Hopper
 from hopper.radial.friction_limit import friction_limit
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.domain import SWEEP
 from hopper_data.inputs import hopper_of
 from hopper_data.tables import in_degrees, number, within

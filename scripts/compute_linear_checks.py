@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from hopper_workflow import artifacts, jobs, ranges
+from hopper_workflow import artifacts, jobs, ranges, reading
 from hopper.evidence import first_derivative, smooth_operator
 from hopper.evidence.folds import FoldMode, fold_mode
 from hopper.evidence.printed import compare_linearised
@@ -15,7 +15,8 @@ from hopper.problem import Geometry
 from hopper.spectral.transient import oscillation
 from hopper.stability import smooth_wall
 from hopper.stability.transient import modal_basis
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.inputs import hopper_of, solution_of
 from hopper_data.tables import angle, in_degrees, number, text, within
 from hopper_workflow.kept_modes import by_half
@@ -118,7 +119,7 @@ def _oscillation(
     """Return amplitudes and their errors over geometry, formulation and start."""
     table = np.empty((len(spectra), len(norms), len(windows["starts"]), 2))
     for i, (geometry, path) in enumerate(zip(_GEOMETRIES, spectra, strict=True)):
-        solution, spectrum = solution_of(geometry, *case), artifacts.read(path)
+        solution, spectrum = solution_of(geometry, *case), reading.read(path)
         for j, (formulation, norm) in enumerate(norms.items()):
             bases = [
                 modal_basis(solution, nodes, half, kept, **norm)

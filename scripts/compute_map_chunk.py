@@ -4,7 +4,7 @@ from typing import Any
 
 from hopper_workflow import artifacts, jobs, maps
 from hopper.domain.stability_map import sweep_friction
-from hopper_data.datasets import CfDataset
+from hopper_data.contents import CfDataset
 from hopper_data.domain import SWEEP
 
 

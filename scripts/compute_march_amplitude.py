@@ -12,7 +12,8 @@ from hopper.march.base import Base
 from hopper.march.optics import estimated_breakdown, threshold_factor
 from hopper.march.outcome import first_crossing
 from hopper.stability.asymptotic_line import asymptotic_line
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.tables import Table, flag, number, text
 from hopper_data.tops import top_of
 

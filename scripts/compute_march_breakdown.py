@@ -7,7 +7,8 @@ from hopper_workflow import artifacts, jobs
 from hopper.assessment.march import assess_march
 from hopper.march.lines import characteristics
 from hopper_data import assessments
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.inputs import solution_of
 from hopper_data.tables import Table, angle, flag, number
 from hopper_data.tops import top_of

@@ -11,7 +11,8 @@ from hopper.arrays import Array
 from hopper.march.outcome import march
 from hopper.march.result import March
 from hopper.stability.modes import linear_stability
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.tables import Table, number, text
 from hopper_data.tops import top_of
 

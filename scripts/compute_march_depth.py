@@ -10,7 +10,8 @@ from hopper_workflow import artifacts, jobs, marches
 from hopper.march.outcome import march
 from hopper.march.result import March
 from hopper.stability.asymptotic_line import asymptotic_line
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.tables import Table, flag, number, text
 from hopper_data.tops import top_of
 

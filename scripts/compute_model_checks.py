@@ -18,7 +18,8 @@ from hopper.radial.solution import radial_solutions
 from hopper.radial.velocity import solve_velocity
 from hopper.stability.tilted import tangency_angle
 from hopper.yield_conditions import MOHR_COULOMB, VON_MISES, YieldCondition, yield_condition
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.inputs import hopper_of
 from hopper_data.tables import Table, angle, in_degrees, number, text, within
 

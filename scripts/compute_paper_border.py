@@ -6,13 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from hopper_workflow import artifacts, jobs, ranges
+from hopper_workflow import artifacts, jobs, ranges, reading
 from hopper.errors import HopperError
 from hopper.evidence.sign_changes import sign_changes
 from hopper.problem import Hopper
 from hopper.radial.solution import solve_radial
 from hopper.stability.paper_abscissa import paper_abscissa
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.tables import Table, angle, flag, in_degrees, number
 
 
@@ -31,7 +32,7 @@ def compute_paper_border(
 
     That is where the neutral curve of ``border`` ends on the fold of the radial solutions.
     """
-    corner = float(artifacts.read(border).neutral_phi[-1])
+    corner = float(reading.read(border).neutral_phi[-1])
 
     def abscissa(delta: float, phi: float) -> float:
         try:

@@ -12,7 +12,8 @@ from hopper.spectral.schur import schur_form
 from hopper.stability.mesh_spectrum import HALVES
 from hopper.stability.paper_matrix import Half, half_matrix
 from hopper.stability.transient import Norm, half_weights
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.inputs import solution_of
 from hopper_data.stability import PLANE, PSEUDOSPECTRUM
 from hopper_data.tables import complex_number

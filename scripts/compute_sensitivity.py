@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from hopper_workflow import artifacts, jobs, kept_modes
+from hopper_workflow import artifacts, jobs, kept_modes, reading
 from hopper.spectral.schur import schur_form
 from hopper.spectral.sensitivity import (
     kept_condition_numbers,
@@ -16,7 +16,8 @@ from hopper.spectral.sensitivity import (
 from hopper.spectral.transient import condition_number, growth_curves
 from hopper.stability.paper_matrix import half_matrix
 from hopper.stability.transient import Norm, half_weights, modal_basis
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.inputs import solution_of
 from hopper_data.stability import HALF
 from hopper_data.tables import complex_number, number
@@ -35,7 +36,7 @@ def compute_sensitivity(
 ) -> CfDataset:
     """Measure the non-normality of M on the kept modes and of the full matrix."""
     solution = solution_of(**hopper)
-    kept = kept_modes.by_half(artifacts.read(spectrum), formulation)
+    kept = kept_modes.by_half(reading.read(spectrum), formulation)
     weight = half_weights(solution.hopper, nodes // 2, norm)
     forms = {
         half: schur_form(half_matrix(solution, nodes // 2, half, psi_scale), weight)

@@ -7,7 +7,8 @@ import numpy as np
 from hopper_workflow import artifacts, jobs, ranges
 from hopper.problem import Geometry
 from hopper.stability import smooth_wall
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.tables import angle, in_degrees, number, text
 
 

@@ -6,7 +6,8 @@ from math import degrees
 from hopper_workflow import artifacts, jobs
 from hopper.stability.mesh_spectrum import mesh_spectrum
 from hopper.stability.tilted import tangency_angle
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.inputs import solution_of
 from hopper_data.stability import MESH_SPECTRUM
 from hopper_data.tables import angle, number, within

@@ -4,7 +4,8 @@ import logging
 
 from hopper_workflow import artifacts, jobs
 from hopper.stability.modes import linear_stability
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.inputs import solution_of
 from hopper_data.stability import STABILITY
 

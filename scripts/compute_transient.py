@@ -7,10 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from hopper_workflow import artifacts, jobs, kept_modes
+from hopper_workflow import artifacts, jobs, kept_modes, reading
 from hopper.spectral.transient import abscissa, condition_number, growth_curves
 from hopper.stability.transient import NORMS, Norm, modal_basis
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.inputs import solution_of
 from hopper_data.tables import flag, number, within
 
@@ -29,7 +30,7 @@ def compute_transient(
 
     ``elapsed.points`` is the least number of times; there are as many as the curves need.
     """
-    data, solution = artifacts.read(spectrum), solution_of(**hopper)
+    data, solution = reading.read(spectrum), solution_of(**hopper)
     choices = list(product(kept_in, norms, psi_scales))
     cases = [
         [

@@ -11,7 +11,8 @@ from hopper.problem import Hopper
 from hopper.von_mises.characteristics import AXIS_HYPERBOLIC, TENSION
 from hopper.von_mises.neutral_curve import neutral_curve
 from hopper.yield_conditions import VON_MISES
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.domain import COUPLED_BORDERS, COUPLED_NEUTRAL
 from hopper_data.tables import angle, number, within
 

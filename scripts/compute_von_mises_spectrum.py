@@ -14,7 +14,8 @@ from hopper.von_mises.high_frequency import high_frequency
 from hopper.von_mises.modes import modes_on
 from hopper.von_mises.strips import rays, strips
 from hopper.yield_conditions import VON_MISES
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.stability import COUPLED_FLAGS, eigenvalues
 from hopper_data.tables import complex_number, number, within
 

@@ -5,7 +5,7 @@ import logging
 from collections import Counter
 from collections.abc import Sequence
 
-from hopper_workflow import artifacts, jobs
+from hopper_workflow import artifacts, jobs, reading
 from hopper_workflow.claims.ledger import COLUMNS, rows
 from hopper_workflow.claims.words import paths_of, read_claims
 
@@ -16,7 +16,7 @@ def judge_claims(claims: str, schema: str, paths: Sequence[str], table: str) -> 
     ``paths`` are those of :func:`hopper_workflow.claims.words.paths_of`, in that order.
     """
     words = read_claims(claims, schema)
-    data = {name: artifacts.read(path) for name, path in zip(paths_of(words), paths, strict=True)}
+    data = {name: reading.read(path) for name, path in zip(paths_of(words), paths, strict=True)}
     ledger = rows(words, data)
     for verdict, count in Counter(row["verdict"] for row in ledger).most_common():
         logging.info("%s: %d", verdict, count)

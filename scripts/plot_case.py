@@ -6,7 +6,7 @@ from typing import Any
 import xarray as xr
 from matplotlib.axes import Axes
 
-from hopper_workflow import artifacts, jobs, plotting
+from hopper_workflow import jobs, plotting, reading
 from hopper_cli import drawing, text
 from hopper_data.tables import Row, number
 
@@ -18,7 +18,7 @@ def plot_case(
 
     ``middle`` has the numbers of the hopper in the middle of the ranges.
     """
-    data = artifacts.read(artifact)
+    data = reading.read(artifact)
     profiles = {key: data[key].to_numpy() for key in _FIELDS if key in data.variables}
     rows = ["fields"] * ("sigma" in profiles) + ["numbers"]
     heights = {"fields": 2.4, "numbers": 2.9}

@@ -4,12 +4,12 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hopper_workflow import artifacts, jobs, plotting
+from hopper_workflow import jobs, plotting, reading
 
 
 def draw(artifact: str) -> Figure:
     """Plot sigma and u over the polar angle for every model and wall friction."""
-    data = artifacts.read(artifact)
+    data = reading.read(artifact)
     figure, axes = plotting.subplots(1, 2, height=3.2)
     looks = plotting.series(data.sizes["mu"])
     for axis, name in zip(axes, ("sigma", "u"), strict=True):

@@ -6,12 +6,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hopper_workflow import artifacts, jobs, plotting
+from hopper_workflow import jobs, plotting, reading
 
 
 def draw(artifact: str, *, stagnant_from_deg: float | None) -> Figure:
     """Plot u and psi of every model and wall friction; shade what the paper calls stagnant."""
-    data = artifacts.read(artifact)
+    data = reading.read(artifact)
     half_angle = float(data.theta.max())
     figure, axes = plotting.subplots(1, 2, height=3.1)
     looks = plotting.series(data.sizes["mu"])

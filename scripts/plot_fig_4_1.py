@@ -2,12 +2,12 @@
 
 from matplotlib.figure import Figure
 
-from hopper_workflow import artifacts, jobs, plotting
+from hopper_workflow import jobs, plotting, reading
 
 
 def draw(artifact: str) -> Figure:
     """Plot both abscissae with the thresholds the paper marks."""
-    data = artifacts.read(artifact)
+    data = reading.read(artifact)
     figure, axis = plotting.subplots(width=plotting.COLUMN_WIDTH, height=2.7)
     axis.axhline(0, color="0.5", linewidth=0.6)
     for geometry, label, style in (("wedge", "2-d (wedge)", "-"), ("cone", "3-d (cone)", "--")):

@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from hopper_workflow import artifacts, jobs, plotting
+from hopper_workflow import jobs, plotting, reading
 
 
 def draw(wedge: str, cone: str, wedge_exact: str, cone_exact: str, *, zoom_imag: float) -> Figure:
@@ -17,7 +17,7 @@ def draw(wedge: str, cone: str, wedge_exact: str, cone_exact: str, *, zoom_imag:
     figure, axes = plotting.subplots(2, 2, height=5.6)
     columns = (("wedge", wedge, wedge_exact, "(4.7)"), ("cone", cone, cone_exact, "(4.9)"))
     for column, (geometry, spectrum, exact, equation) in enumerate(columns):
-        data, theory = artifacts.read(spectrum), artifacts.read(exact)
+        data, theory = reading.read(spectrum), reading.read(exact)
         top, bottom = axes[:, column]
         count = int(data.run_stop - data.run_start)
         # So many dots above each other that they must not melt into a bar.

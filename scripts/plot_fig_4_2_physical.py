@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from hopper_workflow import artifacts, jobs, plotting
+from hopper_workflow import jobs, plotting, reading
 
 
 def draw(wedge: str, cone: str, wedge_line: str, cone_line: str) -> Figure:
@@ -11,7 +11,7 @@ def draw(wedge: str, cone: str, wedge_line: str, cone_line: str) -> Figure:
     figure, axes = plotting.subplots(2, 2, height=5.2)
     columns = (("wedge", wedge, wedge_line), ("cone", cone, cone_line))
     for column, (geometry, spectrum, stability) in enumerate(columns):
-        data, line = artifacts.read(spectrum), float(artifacts.read(stability).line)
+        data, line = reading.read(spectrum), float(reading.read(stability).line)
         kept = (data.kept.to_numpy() == "yes") & (data.half.to_numpy() == "physical")
         modes = data.eigenvalue.to_numpy()[kept]
         upper = modes[modes.imag >= 0]

@@ -7,12 +7,12 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hopper_workflow import artifacts, jobs, plotting
+from hopper_workflow import jobs, plotting, reading
 
 
 def draw(wedge: str, cone: str) -> Figure:
     """Plot the growth relative to exp(-t alpha), a row for each formulation."""
-    panels = [artifacts.read(path) for path in (wedge, cone)]
+    panels = [reading.read(path) for path in (wedge, cone)]
     rows = panels[0].sizes["kept_in"]
     figure, axes = plotting.subplots(
         rows, 2, height=0.8 + 2.1 * rows, sharex=True, sharey="row", squeeze=False

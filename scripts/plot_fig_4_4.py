@@ -5,7 +5,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hopper_workflow import artifacts, jobs, plotting
+from hopper_workflow import jobs, plotting, reading
 
 
 def draw(
@@ -22,7 +22,7 @@ def draw(
         rows.append((wedge_second, cone_second))
     figure, axes = plotting.subplots(len(rows), 2, height=1.0 + 2.6 * len(rows), squeeze=False)
     for axis, path in zip(axes.flat, [path for row in rows for path in row], strict=True):
-        data = artifacts.read(path)
+        data = reading.read(path)
         for delta, color in zip(data.delta.values, _colors(data), strict=True):
             _draw_curve(axis, data.sel(delta=delta), color)
             _name_curve(axis, data.sel(delta=delta), color, rf"$\delta$ = {delta:g}°")

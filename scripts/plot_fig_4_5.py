@@ -7,7 +7,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hopper_workflow import artifacts, domains, jobs, plotting
+from hopper_workflow import domains, jobs, plotting, reading
 
 
 def draw(
@@ -24,10 +24,10 @@ def draw(
     for axis, path, paper, angle, look in zip(
         panels, borders, papers, half_angles_deg, looks, strict=True
     ):
-        data = artifacts.read(path)
+        data = reading.read(path)
         domains.shade(axis, data)
         domains.draw_borders(axis, data)
-        _draw_paper(axis, artifacts.read(paper))
+        _draw_paper(axis, reading.read(paper))
         domains.name_regions(axis, data)
         axis.set_title(rf"cone, $\vartheta_w$ = {angle:g}°")
         domains.outline(last, data, **look, label=rf"$\vartheta_w$ = {angle:g}°")

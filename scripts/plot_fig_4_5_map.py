@@ -11,7 +11,7 @@ from matplotlib.colors import LinearSegmentedColormap, ListedColormap, SymLogNor
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from hopper_workflow import artifacts, domains, jobs, plotting
+from hopper_workflow import domains, jobs, plotting, reading
 
 # A panel has fewer pixels; every cell more costs memory and time.
 _MOST = 1000
@@ -36,7 +36,7 @@ def draw(
     most = 2 if len(maps) <= _FEW else 4
     figure, axes = plotting.grid(len(maps), most, height=2.5, sharex=True, sharey=True)
     for axis, path, border, title in zip(axes, maps, borders, panels, strict=True):
-        whole, known = artifacts.read(path), artifacts.read(border)
+        whole, known = reading.read(path), reading.read(border)
         data = domains.thinned(whole, _MOST)
         # Beyond its end each row is continued: what lies there is drawn over it, with its border.
         continued = data.abscissa.to_pandas().bfill(axis=1).ffill(axis=1)

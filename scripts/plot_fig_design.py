@@ -4,13 +4,13 @@ from collections.abc import Sequence
 
 from matplotlib.figure import Figure
 
-from hopper_workflow import artifacts, jobs, plotting
+from hopper_workflow import jobs, plotting, reading
 from hopper_cli import chart_drawing
 
 
 def draw(artifact: str, *, flow_factors: Sequence[float]) -> Figure:
     """Plot limits of wall friction over the half angle, and contours of the flow factor below."""
-    data = artifacts.read(artifact)
+    data = reading.read(artifact)
     geometry = plotting.parameters_of(data)["geometry"]
     count = data.sizes["delta"]
     figure, axes = plotting.subplots(2, count, height=4.7, sharex=True, sharey=True, squeeze=False)

@@ -3,12 +3,12 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from hopper_workflow import artifacts, jobs, plotting
+from hopper_workflow import jobs, plotting, reading
 
 
 def draw(artifact: str) -> Figure:
     """Plot the area of the domain and the neutral delta at several wall frictions."""
-    data = artifacts.read(artifact)
+    data = reading.read(artifact)
     figure, (left, right) = plotting.subplots(1, 2, height=3.2)
     angles = data.half_angle
     left.plot(angles, data.area, "o-", color=plotting.BLUE, label="stable")

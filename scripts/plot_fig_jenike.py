@@ -4,12 +4,12 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from hopper_workflow import artifacts, jobs, plotting
+from hopper_workflow import jobs, plotting, reading
 
 
 def draw(artifact: str) -> Figure:
     """Plot flow factor over wall friction, a panel for each geometry, a look for each angle."""
-    data = artifacts.read(artifact)
+    data = reading.read(artifact)
     figure, axes = plotting.subplots(1, 2, height=3.4, sharey=True)
     angles = np.unique(data.curve_half_angle)
     looks = dict(zip(angles, plotting.series(len(angles)), strict=True))

@@ -4,13 +4,13 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
-from hopper_workflow import artifacts, jobs, plotting
+from hopper_workflow import jobs, plotting, reading
 from hopper_cli import drawing
 
 
 def draw(artifact: str) -> Figure:
     """Plot the net of characteristics and psi, with the first crossing."""
-    data = artifacts.read(artifact)
+    data = reading.read(artifact)
     fields = {name: data[name].to_numpy() for name in ("tau", "theta", "psi")}
     end = np.nan, np.nan
     if "breakdown_tau" in data:

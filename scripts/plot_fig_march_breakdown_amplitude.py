@@ -5,12 +5,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
 
-from hopper_workflow import artifacts, jobs, plotting
+from hopper_workflow import jobs, plotting, reading
 
 
 def draw(artifact: str, depth: float) -> Figure:
     """Plot tau of the first crossing, a panel for each hopper."""
-    data = artifacts.read(artifact)
+    data = reading.read(artifact)
     figure, axes = plotting.grid(data.sizes["hopper"], 2, height=2.7, sharey=True, sharex=True)
     for index, axis in enumerate(axes):
         _draw_hopper(axis, data.isel(hopper=index), depth)

@@ -5,12 +5,12 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hopper_workflow import artifacts, jobs, plotting
+from hopper_workflow import jobs, plotting, reading
 
 
 def draw(artifact: str) -> Figure:
     """Plot the distance from the radial field over the depth, a panel for each hopper."""
-    data = artifacts.read(artifact)
+    data = reading.read(artifact)
     figure, axes = plotting.grid(data.sizes["hopper"], 2, height=2.9, sharey=True)
     for index, axis in enumerate(axes):
         _draw_hopper(axis, data.isel(hopper=index))

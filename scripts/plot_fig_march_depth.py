@@ -8,12 +8,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from hopper_workflow import artifacts, jobs, plotting
+from hopper_workflow import jobs, plotting, reading
 
 
 def draw(artifact: str) -> Figure:
     """Plot r where the stress is radial to 5 and 1 %, or breaks, a panel for each top."""
-    data = artifacts.read(artifact)
+    data = reading.read(artifact)
     height = 0.9 + 0.19 * data.sizes["hopper"]
     figure, axes = plotting.grid(data.sizes["top"], 3, height=height, sharey=True, sharex=True)
     for index, axis in enumerate(axes):

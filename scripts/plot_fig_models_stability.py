@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 from matplotlib.figure import Figure
 
-from hopper_workflow import artifacts, jobs, plotting, von_mises_domains
 from hopper_workflow import domains as mohr_coulomb
+from hopper_workflow import jobs, plotting, reading, von_mises_domains
 
 
 def draw(
@@ -23,7 +23,7 @@ def draw(
     for row, border, domain, cells, angle in zip(
         axes, borders, domains, maps, half_angles_deg, strict=True
     ):
-        known, data, verdicts = map(artifacts.read, (border, domain, cells))
+        known, data, verdicts = map(reading.read, (border, domain, cells))
         mohr_coulomb.shade(row[0], known)
         mohr_coulomb.draw_borders(row[0], known)
         mohr_coulomb.name_regions(row[0], known)

@@ -10,7 +10,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
-from hopper_workflow import artifacts, jobs, plotting
+from hopper_workflow import jobs, plotting, reading
 
 
 def draw(
@@ -27,11 +27,11 @@ def draw(
     figure, axes = plotting.subplots(
         rows, 2, height=1.1 + 2.7 * rows, sharex=True, sharey=True, squeeze=False
     )
-    kept = [artifacts.read(path) for path in spectra]
+    kept = [reading.read(path) for path in spectra]
     for axis, path, index in zip(axes.flat, panels, range(2 * rows), strict=True):
         row, column = divmod(index, 2)
-        mesh = _draw_contours(axis, artifacts.read(path), levels)
-        _draw_eigenvalues(axis, artifacts.read(path), kept[column])
+        mesh = _draw_contours(axis, reading.read(path), levels)
+        _draw_eigenvalues(axis, reading.read(path), kept[column])
         axis.set_title(
             f"{plotting.GEOMETRIES[column]}, {formulations[row]} formulation, "
             f"{plotting.NORM_NAMES[norms[row]]}"

@@ -6,7 +6,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hopper_workflow import artifacts, jobs, plotting
+from hopper_workflow import jobs, plotting, reading
 
 
 def draw(wedge_paper: str, cone_paper: str, wedge_physical: str, cone_physical: str) -> Figure:
@@ -16,10 +16,10 @@ def draw(wedge_paper: str, cone_paper: str, wedge_physical: str, cone_physical: 
     for column, (geometry, both) in enumerate(zip(plotting.GEOMETRIES, paths, strict=True)):
         top, bottom = axes[:, column]
         for path, color in zip(both, _COLORS, strict=True):
-            _draw_case(top, bottom, artifacts.read(path), {"color": color, "linewidth": 0.8})
-        data = artifacts.read(both[0])
+            _draw_case(top, bottom, reading.read(path), {"color": color, "linewidth": 0.8})
+        data = reading.read(both[0])
         verdict = "stability" if data.eigenvalue.to_numpy().real.max() > 0 else "instability"
-        near = [f"{float(artifacts.read(path).distance):.2g}" for path in both]
+        near = [f"{float(reading.read(path).distance):.2g}" for path in both]
         top.set_title(f"{geometry}: distance to {verdict} {near[0]} (paper), {near[1]} (physical)")
         top.set_xlabel(r"$y$")
         top.set_xlim(0, float(data.frequency.max()))

@@ -7,7 +7,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hopper_workflow import artifacts, jobs, plotting
+from hopper_workflow import jobs, plotting, reading
 
 # Degrees of delta.
 _LABELS_FROM_END = 1.0
@@ -19,7 +19,7 @@ def draw(domains: Sequence[str], *, half_angles_deg: Sequence[float]) -> Figure:
     rows = len(domains)
     figure, axes = plotting.subplots(rows, 2, height=2.5 * rows + 0.3, squeeze=False, sharey=True)
     for row, path, angle in zip(axes, domains, half_angles_deg, strict=True):
-        data = artifacts.read(path)
+        data = reading.read(path)
         for axis, name, end in zip(row, ("decay_down", "decay_up"), _ENDS, strict=True):
             _contours(axis, data, name)
             axis.set_title(rf"$\vartheta_w$ = {angle:g}°, {end}")

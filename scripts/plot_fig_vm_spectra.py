@@ -7,14 +7,14 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hopper_workflow import artifacts, jobs, plotting
+from hopper_workflow import jobs, plotting, reading
 
 
 def draw(spectra: Sequence[str]) -> Figure:
     """Draw the upper half plane of each spectrum."""
     figure, axes = plotting.grid(len(spectra), 3, height=2.9)
     for axis, path in zip(axes, spectra, strict=True):
-        data = artifacts.read(path)
+        data = reading.read(path)
         modes, kind = data.eigenvalue.to_numpy(), data.type.item()
         axis.axvline(0, color="0.6", linewidth=0.6)
         if kind == "elliptic":

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from matplotlib.figure import Figure
 
-from hopper_workflow import artifacts, jobs, plotting, von_mises_domains
+from hopper_workflow import jobs, plotting, reading, von_mises_domains
 
 
 def draw(
@@ -13,7 +13,7 @@ def draw(
     """Draw a panel for each half angle."""
     figure, axes = plotting.grid(len(maps), 2, height=2.9, sharex=True, sharey=True)
     for axis, path, domain, angle in zip(axes, maps, domains, half_angles_deg, strict=True):
-        cells, data = artifacts.read(path), artifacts.read(domain)
+        cells, data = reading.read(path), reading.read(domain)
         von_mises_domains.shade(axis, data)
         von_mises_domains.draw_borders(axis, data)
         von_mises_domains.mark_unresolved(axis, cells)

@@ -8,7 +8,8 @@ import numpy as np
 
 from hopper_workflow import artifacts, jobs
 from hopper.radial.velocity import solve_velocity
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.inputs import solution_of
 from hopper_data.radial import FIELD, field
 from hopper_data.tables import in_degrees, number, text, within

@@ -4,7 +4,7 @@ import csv
 from collections.abc import Sequence
 from typing import Any
 
-from hopper_workflow import artifacts, jobs, own_hoppers
+from hopper_workflow import artifacts, jobs, own_hoppers, reading
 from hopper_data.hopper_lists import harmless
 
 _NUMBERS = ("abscissa", "abscissa_error", "flow_factor", "flow_factor_error")
@@ -24,7 +24,7 @@ def summarise_cases(paths: Sequence[str], table: str, *, cases: Sequence[dict[st
 
 
 def _row(case: dict[str, Any], artifact: str) -> dict[str, Any]:
-    data = artifacts.read(artifact)
+    data = reading.read(artifact)
     given = own_hoppers.middle(case) | case
     numbers = {name: float(data[name]) if name in data else "" for name in _NUMBERS}
     words = {

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from hopper_data import cf
-from hopper_data.datasets import CfDataset
+from hopper_data.contents import CfDataset
 from hopper_data.reading import open_stored
 
 Usage = namedtuple("Usage", "total used free")
@@ -76,8 +76,8 @@ def test_a_file_system_without_locks(tmp_path, settled):
     library = tmp_path / "none.so"
     subprocess.run(["cc", "-shared", "-fPIC", "-o", library, tmp_path / "none.c"], check=True)
     code = (
-        "import sys; from hopper_data import cf, datasets, reading\n"
-        "data = datasets.CfDataset({'a': (('x',), [1.0, 2.0], {})}, {}, {})\n"
+        "import sys; from hopper_data import cf, contents, reading\n"
+        "data = contents.CfDataset({'a': (('x',), [1.0, 2.0], {})}, {}, {})\n"
         "cf.write(data, sys.argv[1], title='t', equations='e', parameters={})\n"
         "print(reading.open_stored(sys.argv[1]).a.values.tolist())"
     )

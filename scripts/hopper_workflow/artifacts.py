@@ -1,4 +1,4 @@
-"""Read and write netCDF artifacts (CF, ACDD), each with a provenance side file."""
+"""Write and verify netCDF artifacts (CF, ACDD), each with a provenance side file."""
 
 import json
 import platform
@@ -7,18 +7,15 @@ from datetime import UTC, datetime
 from importlib.metadata import version
 from inspect import Parameter, signature
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import hopper
 from hopper_data import cf
 from hopper_data.cf import plain as plain
-from hopper_data.datasets import CfDataset
+from hopper_data.contents import CfDataset
 from hopper_data.files import replacing as replacing
 from hopper_workflow.commit import commit
 from hopper_workflow.logs import checksum as checksum
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 _PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "matplotlib", "snakemake")
 
@@ -128,27 +125,3 @@ def verify(path: str | Path) -> None:
             f"artifact {path} is damaged or foreign: its checksum is not that of "
             f"{provenance.name}; {remedy}"
         )
-
-
-def read(
-    path: str | Path, parameters: Mapping[str, Any] | None = None, *, stored: bool = False
-) -> "xr.Dataset":
-    """Verify an artifact and load it into memory, flags and complex numbers as names and numbers.
-
-    With ``stored`` as the file holds it.
-
-    Raises
-    ------
-    ArtifactError
-        As :func:`verify`, or if it holds other parameters than ``parameters``.
-    """
-    from hopper_data import reading  # most jobs only write, and need no xarray
-
-    verify(path)
-    loaded = reading.open_stored(path) if stored else reading.open_artifact(path)
-    if parameters is not None and loaded.attrs["parameters"] != plain(parameters):
-        raise ArtifactError(
-            f"artifact {path} belongs to another configuration: "
-            f"rebuild it with: snakemake --force {path}"
-        )
-    return loaded

@@ -7,6 +7,6 @@ def verdict(artifact: str) -> str:
     """Return the outcome in words, a dash where there is no artifact yet."""
     if not Path(artifact).exists():
         return "\N{EM DASH}"
-    from hopper_workflow import artifacts  # takes a second, and only a report asks
+    from hopper_workflow import reading  # takes a second, and only a report asks
 
-    return str(artifacts.read(artifact).outcome.item()).replace("_", " ")
+    return str(reading.read(artifact).outcome.item()).replace("_", " ")

@@ -8,7 +8,8 @@ import numpy as np
 
 from hopper_workflow import jobs, ranges
 from hopper.problem import Hopper
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.inputs import hopper_of
 from hopper_data.tables import Table, in_degrees, number, within
 

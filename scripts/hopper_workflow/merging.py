@@ -5,8 +5,8 @@ from typing import Any
 
 import xarray as xr
 
-from hopper_workflow import artifacts
-from hopper_data.datasets import CfDataset
+from hopper_workflow import reading
+from hopper_data.contents import CfDataset
 
 
 def merged(
@@ -25,7 +25,7 @@ def merged(
         "phi_deg": phi_deg,
     }
     parts = [
-        artifacts.read(path, {**parameters, "chunk": index, "chunks": len(chunks)}, stored=True)
+        reading.read(path, {**parameters, "chunk": index, "chunks": len(chunks)}, stored=True)
         for index, path in enumerate(chunks)
     ]
     whole = xr.concat(parts, "delta", combine_attrs="drop_conflicts").sortby("row").drop_vars("row")

@@ -12,7 +12,7 @@ import netCDF4
 import numpy as np
 
 import hopper
-from hopper_data.datasets import CfDataset
+from hopper_data.contents import CfDataset
 from hopper_data.files import replacing
 
 # Bytes below which a disk is full for an artifact.

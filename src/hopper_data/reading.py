@@ -6,7 +6,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from hopper_data.datasets import CfDataset
+from hopper_data.contents import CfDataset
 from hopper_data.decoding import decoded
 
 

@@ -21,7 +21,8 @@ from hopper.stability.convergence_filter import FilteredSpectrum
 from hopper.stability.mesh_spectrum import MeshSpectrum
 from hopper.stability.modes import LinearStability
 from hopper_data import assessments, cf, domain, radial, stability
-from hopper_data.datasets import CfDataset, dataset
+from hopper_data.contents import CfDataset
+from hopper_data.datasets import dataset
 from hopper_data.decoding import decoded
 from hopper_data.inputs import Case
 from hopper_data.reading import as_xarray

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from hopper_data import cf
-from hopper_data.datasets import CfDataset, CfVariable
+from hopper_data.contents import CfDataset, CfVariable
 
 
 def write(path: Path, titles: Sequence[str], rows: Sequence[Mapping[str, Any]]) -> None:

@@ -16,7 +16,7 @@ import xarray as xr
 import yaml
 from scipy.optimize import linear_sum_assignment
 
-from hopper_workflow import artifacts
+from hopper_workflow import reading
 from tests.figures.registry import ROOT, plots
 
 HERE = Path(__file__).parent
@@ -194,7 +194,7 @@ def _print_spread(other: Path) -> None:
         entry = entry_of(artifact)
         key = next(key for key, value in tolerances().items() if value is entry)
         data, reading = (
-            artifacts.read(root / artifact, stored=True) for root in (other, ROOT / "results")
+            reading.read(root / artifact, stored=True) for root in (other, ROOT / "results")
         )
         for rule, name, deviation in deviations(data, reference(reading, entry), entry):
             if rule is not _COORDINATES and rule is not _EXACT:

@@ -3,12 +3,12 @@
 import numpy as np
 from matplotlib.testing.compare import compare_images
 
-from hopper_workflow import artifacts, plotting
+from hopper_workflow import plotting, reading
 from tests.figures import images, numbers, structure
 
 
 def test_a_wrong_sign_is_found(artifact):
-    data, entry = artifacts.read(f"results/{artifact}", stored=True), numbers.entry_of(artifact)
+    data, entry = reading.read(f"results/{artifact}", stored=True), numbers.entry_of(artifact)
     stored = numbers.stored(artifact)
     bounded = {name for rule in entry["rules"] if "below" in rule for name in rule["variables"]}
     compared = [

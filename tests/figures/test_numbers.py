@@ -2,12 +2,12 @@
 
 import pytest
 
-from hopper_workflow import artifacts
+from hopper_workflow import reading
 from tests.figures import numbers
 
 
 def test_artifact(artifact, storing):
-    data, entry = artifacts.read(f"results/{artifact}", stored=True), numbers.entry_of(artifact)
+    data, entry = reading.read(f"results/{artifact}", stored=True), numbers.entry_of(artifact)
     path = numbers.REFERENCES / artifact
     found = ["there is no reference"]
     if path.exists():

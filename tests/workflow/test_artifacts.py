@@ -9,7 +9,7 @@ import netCDF4
 import numpy as np
 import pytest
 
-from hopper_workflow import artifacts
+from hopper_workflow import artifacts, reading
 from tests.reliability import comparison, record
 
 pytestmark = pytest.mark.workflow
@@ -108,7 +108,7 @@ def test_the_number_of_chunks_does_not_change_the_map(built, rebuilt):
 
 def test_a_map_tells_why_there_is_no_verdict(built):
     for path in files(built, "results/map", "*_[0-9]*.nc"):
-        data = artifacts.read(path)
+        data = reading.read(path)
         signs = {
             "stable": (data.abscissa < 0) & (data.abscissa_symmetric < 0),
             "stable_symmetric_only": (data.abscissa >= 0) & (data.abscissa_symmetric < 0),
@@ -122,7 +122,7 @@ def test_a_map_tells_why_there_is_no_verdict(built):
 
 def test_error_estimates_are_in_the_artifacts(built):
     for path in files(built, "results/radial", "*.nc"):
-        data = artifacts.read(path)
+        data = reading.read(path)
         for name in ("error_radial", "error_velocity"):
             assert np.all((data[name] > 0) & (data[name] < 1e-10))
 
@@ -138,7 +138,7 @@ def test_logs_receive_what_the_script_says(built):
 def test_an_artifact_of_another_configuration_is_refused(built):
     path = built.path / "results/radial/fig_3_1.nc"
     with pytest.raises(artifacts.ArtifactError, match="another configuration"):
-        artifacts.read(path, parameters={"delta_deg": 31})
+        reading.read(path, parameters={"delta_deg": 31})
 
 
 def test_an_interrupted_write_leaves_nothing(tmp_path):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import yaml
 
-from hopper_workflow import artifacts, configuration
+from hopper_workflow import configuration, reading
 from hopper import Hopper, assess
 from hopper.assessment.summary import OUTCOMES
 from tests.workflow.conftest import ROOT
@@ -32,7 +32,7 @@ def config():
 
 @pytest.mark.workflow
 def test_the_shipped_case_holds_what_the_numerics_know(built):
-    data = artifacts.read(built.path / "results/cases/steel_cone.nc", parameters=STEEL)
+    data = reading.read(built.path / "results/cases/steel_cone.nc", parameters=STEEL)
     found = assess(Hopper("cone", radians(40), radians(20)), atan(0.3))
     assert found.radial is not None
     assert found.stability is not None
@@ -68,7 +68,7 @@ def test_cases_without_an_answer_hold_what_there_is_and_say_why(fresh):
     fresh.build(
         *artifact_only, *(f"figures/case_{name}.png" for name in ("tangent", "beyond", "singular"))
     )
-    found = {name: artifacts.read(fresh.path / f"results/cases/{name}.nc") for name in cases}
+    found = {name: reading.read(fresh.path / f"results/cases/{name}.nc") for name in cases}
     assert {name: outcome_of(data) for name, data in found.items()} == {
         "tangent": "stable",
         "beyond": "no_radial_solution",
@@ -114,7 +114,7 @@ def test_ranges_have_shares_and_all_cases_a_table(fresh):
     spare = "Mass flow: yes, with 0.796 deg of half angle to spare; in 65 % of the given range."
     assert ranged["sentence"] == spare
     assert (ranged["delta_deg"], ranged["phi_deg"]) == ("38+-2", "14:18")
-    data = artifacts.read(fresh.path / "results/cases/ranged.nc")
+    data = reading.read(fresh.path / "results/cases/ranged.nc")
     assert ranged["shares"] == data.shares
     assert "no radial solution: 31 +- 1 % of the range" in data.shares
     assert float(ranged["abscissa"]) == float(data.abscissa)

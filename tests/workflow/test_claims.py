@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import yaml
 
-from hopper_workflow import artifacts
+from hopper_workflow import reading
 from hopper_workflow.claims.finding import (
     FAILS,
     HOLDS,
@@ -232,7 +232,7 @@ def test_the_markdown_shows_every_claim(built, ledger):
 def data(built):
     """Artifacts by path, and claims about whatever parameters they were made with."""
     paths = {path for claim in CLAIMS for path in claim.paths}
-    return {path: artifacts.read(built.path / path) for path in paths}
+    return {path: reading.read(built.path / path) for path in paths}
 
 
 def without_parameters(name):

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import yaml
 
-from hopper_workflow import artifacts, configuration, strict_yaml
+from hopper_workflow import configuration, reading, strict_yaml
 from hopper import Hopper, solve_radial
 from tests.workflow.conftest import ROOT
 
@@ -154,7 +154,7 @@ def test_a_friction_without_solution_ends_in_one_line_and_leaves_nothing(fresh):
 def test_the_papers_frame_is_used_beyond_the_tangency_and_says_where_it_is_singular(fresh):
     fresh.set("spectra.fig_4_2.mu", 0.4)
     fresh.build("results/spectrum/fig_4_2/cone_80.nc")
-    found = artifacts.read(fresh.path / "results/spectrum/fig_4_2/cone_80.nc")
+    found = reading.read(fresh.path / "results/spectrum/fig_4_2/cone_80.nc")
     hopper = Hopper("cone", radians(35), radians(10))
     psi = solve_radial(hopper, atan(0.4)).psi_at(np.radians(float(found.singular_theta)))
     assert np.degrees(psi[0]) == pytest.approx(45 - 35 / 2, abs=1e-9)

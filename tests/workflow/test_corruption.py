@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from hopper_workflow import artifacts, logs
+from hopper_workflow import artifacts, logs, reading
 from hopper_workflow.publish import run
 from tests.reliability import record
 
@@ -72,10 +72,10 @@ def test_every_fault_in_every_file_is_found(rebuilt, monkeypatch):
                     with pytest.raises(
                         artifacts.ArtifactError, match=r"damaged or foreign.*--force"
                     ):
-                        artifacts.read(path)
+                        reading.read(path)
                 if path.endswith(".provenance.json") and fault is not flipped:
                     with pytest.raises(artifacts.ArtifactError, match=r"damaged|no readable"):
-                        artifacts.read(path.replace(".provenance.json", ".nc"))
+                        reading.read(path.replace(".provenance.json", ".nc"))
             Path(path).write_bytes(content)
     assert run.damages(outputs, run.records()) == {}
     record(
@@ -140,7 +140,7 @@ def test_a_missing_artifact_is_named_with_its_remedy(rebuilt):
     path = rebuilt.path / "results/radial/fig_3_1.nc"
     path.unlink()
     with pytest.raises(artifacts.ArtifactError, match="missing: build it with: snakemake"):
-        artifacts.read(path)
+        reading.read(path)
 
 
 def test_a_log_that_was_not_sealed_vouches_for_nothing(tmp_path):

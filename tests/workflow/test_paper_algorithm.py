@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from hopper_workflow import artifacts, paper_checks, ranges
+from hopper_workflow import paper_checks, ranges, reading
 from compute_friction_curve import compute_friction_curve
 from compute_paper_border import compute_paper_border
 from hopper import Hopper, friction_limit, linear_stability, solve_radial
@@ -70,7 +70,7 @@ def test_a_curve_that_reaches_its_limit_before_the_range_does_ends_there():
 def test_the_papers_border_has_a_sign_change_and_a_jump(monkeypatch):
     """Cone 30 deg at phi = 10 deg, where its abscissa jumps from .068 upwards near 30.1 deg."""
     border = xr.Dataset({"neutral_phi": ("point", [0.0, 20.0])})
-    monkeypatch.setattr(artifacts, "read", lambda _: border)
+    monkeypatch.setattr(reading, "read", lambda _: border)
     data = as_xarray(
         compute_paper_border(
             "",

@@ -8,7 +8,7 @@ import csv
 
 import pytest
 
-from hopper_workflow import artifacts
+from hopper_workflow import artifacts, reading
 from tests.figures import numbers
 from tests.reliability import record
 from tests.workflow.conftest import interpreter
@@ -48,7 +48,7 @@ def test_an_old_processor_agrees_within_the_tolerances(built, fresh):
     for path in SOME:
         artifact = path.removeprefix("results/")
         entry = numbers.entry_of(artifact)
-        ours, other = (artifacts.read(each.path / path, stored=True) for each in (built, fresh))
+        ours, other = (reading.read(each.path / path, stored=True) for each in (built, fresh))
         assert numbers.differences(other, numbers.reference(ours, entry), entry) == [], path
         changed += artifacts.checksum(built.path / path) != artifacts.checksum(fresh.path / path)
     # Where no byte differs the processor was not another one.
@@ -72,7 +72,7 @@ def test_every_processor_agrees_with_the_references(copy_workflow, tmp_path):
                 continue
             entry = numbers.entry_of(artifact)
             found = numbers.differences(
-                artifacts.read(path, stored=True), numbers.stored(artifact), entry
+                reading.read(path, stored=True), numbers.stored(artifact), entry
             )
             assert found == [], f"{processor}: {artifact}"
             compared += 1
