@@ -55,6 +55,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     The answer goes to stdout, errors to stderr as one line each.
     """
+    # Matrices are small: more threads would wait for each other.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     given = sys.argv[1:] if arguments is None else arguments
     try:
         return _run(given)
