@@ -15,7 +15,7 @@ from hopper.stability.asymptotic_line import asymptotic_line
 from hopper_data.contents import CfDataset
 from hopper_data.datasets import dataset
 from hopper_data.tables import Table, flag, number, text
-from hopper_data.tops import top_of
+from hopper_data.tops import named_top
 
 _NONE = float("nan")
 
@@ -36,7 +36,7 @@ def compute_march_amplitude(
     found: list[dict[str, Any]] = []
     for hopper in hoppers:
         base = marches.base(hopper)
-        verdicts = [first_crossing(base, top_of(top, e), depth, tolerance, cells) for e in eps]
+        verdicts = [first_crossing(base, named_top(top, e), depth, tolerance, cells) for e in eps]
         crossings = [verdict.crossing for verdict in verdicts]
         found.append(
             {
@@ -59,11 +59,11 @@ def _optics(base: Base, top: str, eps: Array) -> dict[str, Any]:
     """Return the estimates of geometric optics, NaN for cones."""
     if base.hopper.curvature:
         return {"estimate": np.full(eps.size, np.nan), "threshold": _NONE}
-    estimates = [estimated_breakdown(base, top_of(top, size)) for size in eps]
+    estimates = [estimated_breakdown(base, named_top(top, size)) for size in eps]
     return {
         "estimate": [_NONE if each is None else each for each in estimates],
         # Linear in the amplitude.
-        "threshold": threshold_factor(base, top_of(top, eps[0])) * eps[0],
+        "threshold": threshold_factor(base, named_top(top, eps[0])) * eps[0],
     }
 
 

@@ -11,14 +11,14 @@ from hopper_data.contents import CfDataset
 from hopper_data.datasets import dataset
 from hopper_data.inputs import solution_of
 from hopper_data.tables import Table, angle, flag, number
-from hopper_data.tops import top_of
+from hopper_data.tops import named_top
 
 
 def compute_march_breakdown(
     *, hopper: Mapping[str, Any], top: Mapping[str, Any], depth: float, cells: int
 ) -> CfDataset:
     """March one top down one hopper."""
-    given = top_of(**top)
+    given = named_top(**top)
     found = assess_march(solution_of(**hopper), given, depth)
     lines = characteristics(found.result.base, given, cells, found.end)
     return dataset({"profiles": found.profiles(), "march": found, "lines": lines}, TABLE)

@@ -14,7 +14,7 @@ from hopper.stability.modes import linear_stability
 from hopper_data.contents import CfDataset
 from hopper_data.datasets import dataset
 from hopper_data.tables import Table, number, text
-from hopper_data.tops import top_of
+from hopper_data.tops import named_top
 
 
 def compute_march_decay(
@@ -34,7 +34,7 @@ def compute_march_decay(
     for hopper in hoppers:
         base = marches.base(hopper)
         marched = [
-            march(base, top_of(top, size), depth, cells=cells) for size in (*eps, linear_eps)
+            march(base, named_top(top, size), depth, cells=cells) for size in (*eps, linear_eps)
         ]
         distance = [_distance(each, tau) for each in marched]
         stability = linear_stability(base.solution, "symmetric")

@@ -13,7 +13,7 @@ from hopper.stability.asymptotic_line import asymptotic_line
 from hopper_data.contents import CfDataset
 from hopper_data.datasets import dataset
 from hopper_data.tables import Table, flag, number, text
-from hopper_data.tops import top_of
+from hopper_data.tops import named_top
 
 _LEVELS = (0.05, 0.01)
 
@@ -33,7 +33,7 @@ def compute_march_depth(
         base = marches.base(hopper)
         marched = []
         for top in tops:
-            found_here = march(base, top_of(**top), depth, tolerance, _LEVELS, cells)
+            found_here = march(base, named_top(**top), depth, tolerance, _LEVELS, cells)
             marched.append(_numbers(found_here, depth))
             report(len(found) * len(tops) + len(marched), len(hoppers) * len(tops))
         line = asymptotic_line(base.solution).abscissa

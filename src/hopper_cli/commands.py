@@ -24,7 +24,7 @@ from hopper_cli import designs, documents, progress, sentences, text, written
 from hopper_cli.errors import UsageError
 from hopper_data import assessments, tables
 from hopper_data.inputs import Case
-from hopper_data.tops import top_of
+from hopper_data.top_files import top_of
 from hopper_data.walls import Wall
 
 _NO_TRANSIENT = (
