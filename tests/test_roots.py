@@ -59,7 +59,10 @@ def test_a_root_at_an_end_is_that_end():
     assert root_between(lambda x: x - 1, 0.0, 1.0) == 1.0
 
 
-@pytest.mark.parametrize("function", [lambda x: x + 2, lambda _: nan, lambda x: nan if x else -1.0])
+@pytest.mark.parametrize(
+    "function",
+    [lambda x: x + 2, lambda x: 1e-200 * (x + 1), lambda _: nan, lambda x: nan if x else -1.0],
+)
 def test_without_a_change_of_sign_there_is_an_error(function):
     with pytest.raises(InvalidParameterError):
         root_between(function, 0.0, 1.0)

@@ -11,7 +11,7 @@ from typing import Any
 
 import hopper
 from hopper_data import cf
-from hopper_data.cf import plain as plain
+from hopper_data.cf import plain
 from hopper_data.contents import CfDataset
 from hopper_data.files import replacing as replacing
 from hopper_workflow.commit import commit

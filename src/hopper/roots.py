@@ -43,7 +43,8 @@ def root_between(
     """
     x, other = low, high  # the newest place, and one where the function has the other sign
     at_x, at_other = _value(function, low), _value(function, high)
-    if at_x * at_other > 0:
+    # Signs, not their product, in which small values vanish.
+    if at_x and at_other and (at_x > 0) == (at_other > 0):
         raise InvalidParameterError(f"function has one sign at {low:.6g} and {high:.6g}")
     before, at_before = x, at_x
     share = at_x / (at_x - at_other) if at_x != at_other else 0.0  # of a straight line

@@ -1,7 +1,6 @@
 """Answers in words."""
 
 from math import degrees, exp
-from typing import TYPE_CHECKING
 
 from hopper.assessment.coupled import CoupledStability
 from hopper.assessment.march import MarchAssessment
@@ -11,12 +10,10 @@ from hopper.assessment.stability import StabilityAssessment
 from hopper.design.design import Design
 from hopper.design.flow_pattern import FlowPattern
 from hopper.design.half_angles import Limit
+from hopper.uncertainty.designs import RangedDesign
+from hopper.uncertainty.ranged import Ranged
+from hopper.uncertainty.sampling import Share
 from hopper_cli.text import described
-
-if TYPE_CHECKING:  # sampling takes a second to import, and only ranges need it
-    from hopper.uncertainty.designs import RangedDesign
-    from hopper.uncertainty.ranged import Ranged
-    from hopper.uncertainty.sampling import Share
 
 _ENDS = {
     "fold": "where a second branch of solutions begins",
@@ -26,7 +23,7 @@ _ENDS = {
 }
 
 
-def mass_flow_sentence(found: FlowPattern, over: "Ranged | None" = None) -> str:
+def mass_flow_sentence(found: FlowPattern, over: Ranged | None = None) -> str:
     """Return whether there is mass flow, and with how much half angle to spare.
 
     ``over`` is the answer over a range, of which ``found`` is the middle: then also in which share
@@ -43,7 +40,7 @@ def mass_flow_sentence(found: FlowPattern, over: "Ranged | None" = None) -> str:
     return f"Mass flow: {words}{_where(found, over) if over else ''}."
 
 
-def _where(found: FlowPattern, over: "Ranged") -> str:
+def _where(found: FlowPattern, over: Ranged) -> str:
     """Return where in a range there is mass flow."""
     what = "" if found.mass_flow else "mass flow "
     words = f"; {what}in {_extent(over.shares.get('mass_flow'))} the given range"
@@ -53,13 +50,13 @@ def _where(found: FlowPattern, over: "Ranged") -> str:
     return words
 
 
-def _extent(share: "Share | None") -> str:
+def _extent(share: Share | None) -> str:
     if share is not None and not share.error:
         return "all of" if share.value else "no part of"
     return f"{percent(share)} of"
 
 
-def percent(share: "Share | None") -> str:
+def percent(share: Share | None) -> str:
     """Return a share without a fraction, None if it was nowhere seen."""
     if share is None or share.value < 0.01:
         return "less than 1 %"
@@ -74,7 +71,7 @@ _LIMITS: dict[Limit, str] = {
 }
 
 
-def design_range_sentence(found: "RangedDesign", margin: float) -> str:
+def design_range_sentence(found: RangedDesign, margin: float) -> str:
     """Return the same over a range; ``margin`` in degrees."""
     flows = found.numbers.get("half_angles.mass_flow")
     words = found.middle.half_angles.no_mass_flow

@@ -11,11 +11,7 @@ for line in configuration.bring_up_to_date(config, SCHEMA):
 
 FIGURES = [drawing.figure for drawing in entries.drawings(config)]
 # Those of the paper have its numbers; fig_4_5_map, which it has not, costs as much as all of them.
-PAPER = [
-    figure
-    for figure in FIGURES
-    if re.match(r"fig_\d_\d", figure) and figure != "fig_4_5_map" or figure == "fig_pseudospectrum"
-]
+PAPER = [one for one in FIGURES if re.match(r"fig_(\d_\d(?!_map)|pseudospectrum)", one)]
 MAP = config["stability_map"]
 VON_MISES = config["von_mises"]
 FORMULATIONS = ["paper", "physical"]

@@ -36,7 +36,8 @@ class FrictionLimits:
         self.margin, self.tau_margin = _LEAST, _LEAST
         if self.own:
             tests = points_in_box(len(self.own), _TESTS).reshape(-1, len(self.own))
-            off = np.abs([self._limit(test) - self._interpolated(test) for test in tests])
+            between = [[self._interpolated(table, test) for table in self.tables] for test in tests]
+            off = np.abs(np.subtract([self._limit(test) for test in tests], between))
             self.margin, self.tau_margin = _LEAST + _SAFETY * off.max(axis=0)
 
     @checked
@@ -54,7 +55,7 @@ class FrictionLimits:
         place = np.asarray(point, dtype=float)
         if np.any((place < 0) | (place > 1)):
             return 0.0
-        log_tau = self._interpolated(place[self.own])[1] - self.tau_margin
+        log_tau = self._interpolated(self.tables[1], place[self.own]) - self.tau_margin
         return float(np.exp(log_tau)) if np.isfinite(log_tau) else 0.0
 
     @checked
@@ -80,7 +81,7 @@ class FrictionLimits:
     def _below(self, place: Array) -> float:
         """Return how far the wall at a point is below the largest friction angle."""
         material, _ = self.box.hopper(place)
-        return float(self._interpolated(place[self.own])[0]) - material.friction_angle
+        return self._interpolated(self.tables[0], place[self.own]) - material.friction_angle
 
     def _limit(self, part: Array) -> tuple[float, float]:
         """Return the largest friction angle, and log(tau) there where it is a fold."""
@@ -93,9 +94,8 @@ class FrictionLimits:
             return np.nan, np.nan
         return found.friction_angle, np.log(found.tau) if found.end == "fold" else np.nan
 
-    def _interpolated(self, part: Array) -> Array:
-        rows = (
-            np.nan if np.isnan(table).any() else interpolated(table, part[None])[0]
-            for table in self.tables
-        )
-        return np.array([*rows])
+    @staticmethod
+    def _interpolated(table: Array, part: Array) -> float:
+        if np.isnan(table).any():
+            return np.nan
+        return float(interpolated(table, part[None])[0])
