@@ -1,5 +1,6 @@
 """The report, also in a real browser: complete, whole and offline."""
 
+import contextlib
 import json
 import os
 import shutil
@@ -10,6 +11,7 @@ from urllib.parse import urlsplit
 
 import pytest
 from selenium import webdriver
+from selenium.common.exceptions import StaleElementReferenceException
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 from selenium.webdriver.remote.webelement import WebElement
@@ -69,8 +71,8 @@ class Reader:
         browser.get(self.report)
         self.wait(lambda: self.links("Workflow"))
 
-    def wait(self, condition):
-        return WebDriverWait(self.browser, 60).until(lambda _: condition())
+    def wait(self, condition, failure: str = ""):
+        return WebDriverWait(self.browser, 60).until(lambda _: condition(), failure)
 
     def all(self, selector: str) -> list[WebElement]:
         return self.browser.find_elements(By.CSS_SELECTOR, selector)
@@ -80,6 +82,16 @@ class Reader:
 
     def click(self, text: str) -> None:
         self.wait(lambda: self.links(text))[0].click()
+
+    def explanation(self, link: WebElement, title: str) -> str:
+        """The text behind a link, which is clicked again where the page moved under the click."""
+
+        def shown() -> list[WebElement]:
+            with contextlib.suppress(StaleElementReferenceException):  # the click has worked
+                link.click()
+            return self.all("nav li.prose")
+
+        return self.wait(shown, f"no explanation of {title}")[0].text
 
     def home(self) -> None:
         self.all("nav nav a")[0].click()
@@ -137,8 +149,7 @@ def test_every_figure_and_page_is_found_by_its_title(reader: Reader, report: Pat
                 view.click()
                 expect_whole(reader, title)
                 found[title] = reader.value("app.state.resultPath")
-            explain.click()
-            caption = reader.wait(lambda: reader.all("nav li.prose"))[0].text
+            caption = reader.explanation(explain, title)
             assert len(caption) > len(title), f"{title}: {caption}"
             assert "{{" not in caption
             reader.click(category)
