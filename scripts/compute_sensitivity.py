@@ -13,7 +13,7 @@ from hopper.spectral.sensitivity import (
     kept_sensitivity,
     resolvent_curves,
 )
-from hopper.spectral.transient import condition_number, growth_curves
+from hopper.spectral.transient import condition_number, growth_curve
 from hopper.stability.paper_matrix import half_matrix
 from hopper.stability.transient import Norm, half_weights, modal_basis
 from hopper_data.contents import CfDataset
@@ -44,7 +44,7 @@ def compute_sensitivity(
     }
     bases = [modal_basis(solution, nodes, h, values, norm, psi_scale) for h, values in kept.items()]
     measures = kept_sensitivity(bases)
-    times, (growth,) = growth_curves([bases], 0, elapsed["stop"], elapsed["points"])
+    times, growth = growth_curve(bases, 0, elapsed["stop"], elapsed["points"])
     y, (resolvent_kept, resolvent) = resolvent_curves(
         [[kept_form(bases)], list(forms.values())], frequencies["stop"], frequencies["points"]
     )

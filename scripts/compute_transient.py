@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from hopper_workflow import artifacts, jobs, kept_modes, reading
-from hopper.spectral.transient import abscissa, condition_number, growth_curves
+from hopper.spectral.transient import abscissa, condition_number, growth_curve
 from hopper.stability.transient import NORMS, Norm, modal_basis
 from hopper_data.contents import CfDataset
 from hopper_data.datasets import dataset
@@ -28,7 +28,8 @@ def compute_transient(
 ) -> CfDataset:
     """Compute the norm over -t in [0, elapsed.stop] for every formulation, norm and weight of psi.
 
-    ``elapsed.points`` is the least number of times; there are as many as the curves need.
+    ``elapsed.points`` is the least number of times; each curve has as many as it needs, and is
+    missing at those that others need.
     """
     data, solution = reading.read(spectrum), solution_of(**hopper)
     choices = list(product(kept_in, norms, psi_scales))
@@ -39,16 +40,17 @@ def compute_transient(
         ]
         for formulation, norm, scale in choices
     ]
-    times, curves = growth_curves(cases, 0, elapsed["stop"], elapsed["points"])
-    logging.info("%d times", times.size)
+    curves = [growth_curve(bases, 0, elapsed["stop"], elapsed["points"]) for bases in cases]
+    times = np.unique(np.concatenate([own for own, _ in curves]))
     found: list[dict[str, Any]] = []
-    for choice, bases, relative in zip(choices, cases, curves, strict=True):
+    for choice, bases, (own, relative) in zip(choices, cases, curves, strict=True):
         alpha, kappa = abscissa(bases), condition_number(bases)
         logging.info("%s, %s norm, psi scale %g: alpha %.6f, kappa %.4g", *choice, alpha, kappa)
-        lower = np.exp(alpha * times)
+        growth, lower = np.full(times.size, np.nan), np.exp(alpha * times)
+        growth[np.searchsorted(times, own)] = relative * np.exp(alpha * own)
         found.append(
             {
-                "growth": relative * lower,
+                "growth": growth,
                 "lower_bound": lower,
                 "upper_bound": kappa * lower,
                 "abscissa": alpha,
@@ -64,7 +66,7 @@ def compute_transient(
 TABLE = within(
     "cases",
     (
-        number("growth", "norm of exp(-t M) on the kept modes", "elapsed"),
+        number("growth", "norm of exp(-t M) on the kept modes, NaN where not sampled", "elapsed"),
         number("lower_bound", "exp(-t alpha)", "elapsed"),
         number("upper_bound", "kappa(V) exp(-t alpha)", "elapsed"),
         number("abscissa", "largest real part of a kept mode"),

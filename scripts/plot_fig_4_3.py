@@ -9,7 +9,7 @@ def draw(wedge: str, cone: str) -> Figure:
     """Plot the norm of exp(-t M) over -t with both bounds, wedge left, cone right."""
     figure, axes = plotting.subplots(1, 2, height=3.1)
     for axis, geometry, path in zip(axes, plotting.GEOMETRIES, (wedge, cone), strict=True):
-        data = reading.read(path).isel(kept_in=0, norm=0, psi_scale=0)
+        data = reading.read(path).isel(kept_in=0, norm=0, psi_scale=0).dropna("elapsed")
         abscissa, formulation = float(data.abscissa), str(data.kept_in.item())
         verdict = "stable" if abscissa < 0 else "unstable"
         axis.semilogy(data.elapsed, data.growth, color=plotting.BLUE, linewidth=0.6)

@@ -34,8 +34,8 @@ def draw(wedge: str, cone: str) -> Figure:
 def _draw_curves(axis: Axes, case: xr.Dataset) -> None:
     choices = product(range(case.sizes["norm"]), range(case.sizes["psi_scale"]))
     for (norm, scale), look in zip(choices, _looks(case), strict=True):
-        here = case.isel(norm=norm, psi_scale=scale)
-        axis.semilogy(case.elapsed, here.growth / here.lower_bound, **look)
+        here = case.isel(norm=norm, psi_scale=scale).dropna("elapsed")
+        axis.semilogy(here.elapsed, here.growth / here.lower_bound, **look)
 
 
 def _looks(data: xr.Dataset) -> list[dict[str, Any]]:

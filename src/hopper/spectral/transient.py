@@ -236,26 +236,41 @@ def _relative_norms(basis: ModalBasis, times: Array) -> Iterator[float]:
     values, size = basis.eigenvalues - basis.abscissa, basis.size
     real = int(np.sum(values.imag == 0))
     first = values[real::2]
-    inverse = scipy.linalg.solve_triangular(basis.factor, np.eye(size), check_finite=False)
+    # In Fortran's order, as the triangular product below would copy others.
+    factor = np.asfortranarray(basis.factor)
+    inverse = np.asfortranarray(
+        scipy.linalg.solve_triangular(factor, np.eye(size), check_finite=False)
+    )
     for time in times:
         # exp(time (Lambda - alpha)) in the real basis: scaling, and a rotation for each pair.
         grown = np.empty_like(inverse)
         with np.errstate(over="ignore"):
-            decay, factor = (np.exp(time * rate)[:, None] for rate in (values[:real].real, first))
+            decay, turn = (np.exp(time * rate)[:, None] for rate in (values[:real].real, first))
         grown[:real] = decay * inverse[:real]
         rows, columns = inverse[real::2], inverse[real + 1 :: 2]
-        grown[real::2] = factor.real * rows + factor.imag * columns
-        grown[real + 1 :: 2] = factor.real * columns - factor.imag * rows
-        image = basis.factor @ grown
-        # Twice as fast as singular values, and as accurate for the largest.
-        yield float(np.sqrt(np.linalg.eigvalsh(image.T @ image)[-1]))
+        grown[real::2] = turn.real * rows + turn.imag * columns
+        grown[real + 1 :: 2] = turn.real * columns - turn.imag * rows
+        image = scipy.linalg.blas.dtrmm(1.0, factor, grown)
+        # Three times as fast as singular values, and as accurate for the largest.
+        yield float(np.sqrt(_largest_eigenvalue(image.T @ image)))
+
+
+def _largest_eigenvalue(symmetric: Array) -> float:
+    last = len(symmetric) - 1
+    try:
+        (found,) = scipy.linalg.eigvalsh(
+            symmetric, subset_by_index=[last, last], driver="evx", check_finite=False
+        )
+    except np.linalg.LinAlgError:  # bisection fails where all eigenvalues coincide, as at t = 0
+        found = np.linalg.eigvalsh(symmetric)[-1]
+    return float(found)
 
 
 @checked
-def growth_curves(
-    cases: Sequence[Sequence[ModalBasis]], start: float, stop: float, least: int = 2
+def growth_curve(
+    bases: Sequence[ModalBasis], start: float, stop: float, least: int = 2
 ) -> tuple[Array, Array]:
-    """Return times from start to stop, and exp(-t alpha) ||exp(t M)|| of several cases at them.
+    """Return times from start to stop, and exp(-t alpha) ||exp(t M)|| at them.
 
     The first times are half a period of the fastest mode apart, as that is what makes peaks and
     dips; where lines between them are off by more than 1 % in the middle there are more, so that
@@ -263,8 +278,8 @@ def growth_curves(
 
     Parameters
     ----------
-    cases : sequence of sequences of ModalBasis
-        One or both parities of each.
+    bases : sequence of ModalBasis
+        Of one or both parities.
     start, stop : float
         Not negative, stop above start.
     least : int
@@ -272,13 +287,13 @@ def growth_curves(
 
     Returns
     -------
-    times, relative : array, shape (n,) and (number of cases, n)
+    times, relative : array, shape (n,)
 
     Raises
     ------
     InvalidParameterError
         If a time is negative, not finite or too long for the phases, stop is not above start, least
-        is below 2, there is no case, or a case has no basis.
+        is below 2, or there is no basis.
     """
     _require_times({"start": start, "stop": stop})
     if stop <= start or least < 2:
@@ -286,17 +301,11 @@ def growth_curves(
             f"start = {start}, stop = {stop}, least = {least}: stop must be above start, and least "
             "at least 2"
         )
-    if not cases:
-        raise InvalidParameterError("cases is empty: give the bases of at least one")
-    highest = max(_highest(bases) for bases in cases)
-    _norm(cases[0], np.array([stop]), abscissa(cases[0]))
+    highest, alpha = _highest(bases), abscissa(bases)
+    _norm(bases, np.array([stop]), alpha)
     halves = ceil(min(highest * (stop - start) / pi, _MOST_TIMES))
     first = np.linspace(start, stop, (least - 1) * max(1, ceil(halves / (least - 1))) + 1)
-    return refined(
-        lambda times: np.stack([_norm(bases, times, abscissa(bases)) for bases in cases]),
-        first,
-        _OFF_CHORD,
-    )
+    return refined(lambda times: _norm(bases, times, alpha), first, _OFF_CHORD)
 
 
 def _require_times(times: dict[str, float]) -> None:
@@ -323,7 +332,7 @@ def oscillation(
     start, length : float
         Not negative; ``length`` should cover a few periods.
     points : int
-        Least number of times, at least 3; there are as many as :func:`growth_curves` needs.
+        Least number of times, at least 3; there are as many as :func:`growth_curve` needs.
 
     Returns
     -------
@@ -339,7 +348,7 @@ def oscillation(
     _require_times({"start": start, "length": length, "start + length": start + length})
     if points < 3:
         raise InvalidParameterError(f"points = {points} times: give at least 3")
-    times, (relative,) = growth_curves([bases], start, start + length, points)
+    times, relative = growth_curve(bases, start, start + length, points)
 
     def amplitude(step: int) -> float:
         t, y = times[::step], relative[::step]
