@@ -15,6 +15,8 @@ import numpy as np
 import xarray as xr
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
@@ -125,14 +127,20 @@ def key(label: str, **style: Any) -> Line2D:
 
 
 _MARKERS = "os^DvP*X"
+_STAMPS = ("CreationDate", "Producer", "Creator")
 
 
 def save(figure: Figure, png: str | Path, pdf: str | Path) -> None:
-    """Write PNG and PDF without time stamps and close the figure."""
+    """Write PNG and PDF without time stamps, one layout for both, and close the figure."""
+    figure.set_dpi(plt.rcParams["savefig.dpi"])
+    # Once, by itself: savefig would lay out each file in a drawing of its own that nobody sees.
+    if layout := figure.get_layout_engine():
+        layout.execute(figure)
+    figure.set_layout_engine("none")
     with replacing(png) as path:
-        figure.savefig(path, metadata={"Software": None})
+        FigureCanvasAgg(figure).print_png(path, metadata={"Software": None})
     with replacing(pdf) as path:
-        figure.savefig(path, metadata={"CreationDate": None, "Producer": None, "Creator": None})
+        FigureCanvasPdf(figure).print_pdf(path, metadata=dict.fromkeys(_STAMPS))
     plt.close(figure)
 
 
