@@ -172,7 +172,6 @@ def results():
     from hopper.spectral.sensitivity import kept_sensitivity
     from hopper.stability.convergence_filter import convergence_filter
     from hopper.stability.mesh_spectrum import mesh_spectrum
-    from hopper.stability.modes import stacked_starts
     from hopper.stability.paper_abscissa import paper_abscissa
     from hopper.stability.paper_frame import coefficients
     from hopper.stability.tilted import tilted_coefficients
@@ -246,7 +245,7 @@ def results():
         compare_linearised(solution, 3), check_formula(cone, 3, 12),
         Case("cone", "mohr-coulomb", 35, 10, Wall.of(0.1)), Wall.of(0.1),
         number("sigma_axis", "stress"), *rows(solution, [number("sigma_axis", "stress")]),
-        branch_up_to(cone, 0.1), *stacked_starts([solution], ["symmetric"]),
+        branch_up_to(cone, 0.1),
         piece, piece.end, solution.member.grid.map, form.panels[0],
         *sign_changes(np.cos, [1.0, 2.0], 0.1), base, state, state.at, base_table(base),
         ray_slopes(state.at, np.tan(state.psi), state.light), stress_of(0.5, state.psi, state.psi),

@@ -12,18 +12,18 @@ from hopper.radial.collocation import Closure, newton
 from hopper.radial.fields import stacked_fields
 from hopper.radial.grid import half_grid
 from hopper.stability import smooth_wall
-from hopper.stability.asymptotic_line import asymptotic_line
-from hopper.stability.collocation import parities_of
+from hopper.stability.asymptotic_line import LINE_SIZES, asymptotic_line, lines_on
+from hopper.stability.collocation import mode_grid, parities_of
 from hopper.stability.convergence_filter import convergence_filter
 from hopper.stability.mesh_spectrum import mesh_spectrum
 from hopper.stability.modes import (
     LinearStability,
     Modes,
-    parities_among,
+    linear_stabilities,
     partner_changes,
-    stacked_starts,
     upper_eigenvalues,
 )
+from hopper.stability.tilted import stacked_on_grids
 from hopper.yield_conditions import VON_MISES
 from tests.stability.tilted_chebyshev import staggered_modes
 from tests.stability.tilted_data import ELSEWHERE, ELSEWHERE_NAMES, as_complex, name, read
@@ -415,10 +415,9 @@ def test_solutions_together_are_judged_as_one_by_one():
         hopper = Hopper(geometry, radians(40), radians(30))
         solutions = [solve_radial(hopper, radians(phi)) for phi in (0, 3, 9, 14, 17.5)]
         assert len({solution.member.grid.size for solution in solutions}) > 1
-        starts = stacked_starts(solutions, parities_among(None, geometry))
-        for solution, start in zip(solutions, starts, strict=True):
-            together = linear_stability(solution, start=start)
+        for solution, together in zip(solutions, linear_stabilities(solutions), strict=True):
             single = linear_stability(solution)
+            assert not isinstance(together, ConvergenceError)
             assert together.modes.keys() == single.modes.keys()
             for parity, modes in together.modes.items():
                 other = single.modes[parity]
@@ -432,14 +431,16 @@ def test_solutions_together_are_judged_as_one_by_one():
 def test_solutions_of_several_hoppers_do_not_go_together():
     solutions = [radial("wedge", 35, 10), radial("wedge", 36, 10)]
     with pytest.raises(InvalidParameterError, match="not of one hopper"):
-        stacked_starts(solutions, ("symmetric",))
+        linear_stabilities(solutions)
+    assert linear_stabilities([]) == []
     with pytest.raises(InvalidParameterError, match="empty"):
         stacked_fields([], [])
 
 
 def test_line_of_a_coarse_grid_is_refined_where_it_does_not_suffice():
     solution = solve_radial(Hopper("wedge", radians(20), radians(30)), radians(19.9))
-    (start,) = stacked_starts([solution], ("symmetric",))
-    line = asymptotic_line(solution, start.line)
-    assert start.line.tail > 1e-13 >= line.tail or line.error_estimate < start.line.error_estimate
-    assert abs(start.line.abscissa - line.abscissa) <= start.line.error_estimate
+    grid = mode_grid(solution, LINE_SIZES[0], "symmetric")
+    (first,) = lines_on([solution], grid, stacked_on_grids([solution], [grid])[0])
+    line = asymptotic_line(solution, first)
+    assert first.tail > 1e-13 >= line.tail or line.error_estimate < first.error_estimate
+    assert abs(first.abscissa - line.abscissa) <= first.error_estimate

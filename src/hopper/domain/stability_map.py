@@ -20,9 +20,7 @@ from hopper.stability.modes import (
     Disturbances,
     Governor,
     LinearStability,
-    linear_stability,
-    parities_among,
-    stacked_starts,
+    linear_stabilities,
 )
 from hopper.values import require_angle
 
@@ -114,13 +112,11 @@ def sweep_friction(
     allowed = np.flatnonzero(region == _NO_SOLUTION)
     members, region[allowed] = _members(hopper, angles[allowed])
     solved = {i: solution_of(m) for i, m in zip(allowed, members, strict=True) if m and m.tau > 0}
-    starts = stacked_starts(list(solved.values()), parities_among(disturbances, hopper.geometry))
-    for (i, solution), start in zip(solved.items(), starts, strict=True):
-        try:
-            result = linear_stability(
-                solution, disturbances, tolerance=_TOLERANCE, others=_OTHERS, start=start
-            )
-        except ConvergenceError:
+    results = linear_stabilities(
+        list(solved.values()), disturbances, tolerance=_TOLERANCE, others=_OTHERS
+    )
+    for (i, solution), result in zip(solved.items(), results, strict=True):
+        if isinstance(result, ConvergenceError):
             region[i] = _NOT_CONVERGED
         else:
             region[i], values[:-1, i], codes[:, i] = _row(result)

@@ -10,10 +10,12 @@ A cone is judged by axisymmetric disturbances without swirl, a wedge by both par
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hopper.arguments import ComplexRow, checked
 from hopper.arrays import Array, Complex, Numbers
@@ -38,7 +40,8 @@ Governor = Literal["line", "complex mode", "real mode"]
 GOVERNORS: tuple[Governor, ...] = ("line", "complex mode", "real mode")
 Verdict = Literal["stable", "stable_symmetric_only", "unstable", "neutral"]
 
-_SIZES = (12, 16, 22, 36, 54, 80, 120)
+# Half-grid points; many solutions are computed together on the first two meshes.
+_SIZES, _TOGETHER = (12, 16, 22, 36, 54, 80, 120), 2
 # Half-grid points of a cone's radial solution from which on the first mesh is too coarse.
 _LAYERED = 36
 _TOLERANCE = 1e-10
@@ -63,7 +66,7 @@ class Modes:
 
     __repr__ = brief("eigenvalues", "errors")
 
-    @property
+    @cached_property
     def highest(self) -> int:
         """Index of the mode with the largest real part."""
         return int(np.argmax(self.eigenvalues.real))
@@ -75,15 +78,6 @@ class Modes:
         if value > line.abscissa:
             return value, float(self.errors[self.highest])
         return line.abscissa, line.error_estimate
-
-    def _first(self, count: int, line: float) -> "Modes":
-        """Return the first modes, up to one beyond ``count`` that exceeds them and the line."""
-        level = max(line, float(self.eigenvalues[:count].real.max()))
-        beyond = self.eigenvalues.real - self.errors
-        beyond[:count] = level
-        if beyond.max() > level:
-            count = int(beyond.argmax()) + 1
-        return Modes(self.eigenvalues[:count], self.errors[:count])
 
 
 @dataclass(frozen=True)
@@ -146,16 +140,6 @@ class LinearStability:
         return "stable_symmetric_only" if value < -error else "unstable"
 
 
-@dataclass(frozen=True)
-class Start:
-    """The line on a coarse grid, and the eigenvalues with Im >= 0 of each parity on two meshes."""
-
-    line: AsymptoticLine
-    eigenvalues: dict[Parity, list[Complex]]
-
-    __repr__ = brief("line.abscissa")
-
-
 @checked
 def linear_stability(
     solution: RadialSolution,
@@ -163,7 +147,6 @@ def linear_stability(
     count: int = LEAST_MODES,
     tolerance: float = _TOLERANCE,
     others: float | None = None,
-    start: Start | None = None,
 ) -> LinearStability:
     """Return the low modes, the asymptotic line and the spectral abscissa of a radial solution.
 
@@ -178,8 +161,6 @@ def linear_stability(
     tolerance, others : float
         Error of the governing mode, and of the others (default: the same), relative where the
         modulus exceeds 1.
-    start : Start, optional
-        Of this solution, from :func:`stacked_starts`, which then has chosen the disturbances.
 
     Raises
     ------
@@ -196,40 +177,74 @@ def linear_stability(
     >>> stability.verdict, round(stability.abscissa, 4)
     ('stable', -4.4827)
     """
-    if start is None:
-        parities = parities_among(disturbances, solution.hopper.geometry)
-        start = stacked_starts([solution], parities)[0]
-    line = asymptotic_line(solution, start.line, _LINE_PART * tolerance)
-    wanted = _Wanted(max(count, LEAST_MODES), tolerance, others or tolerance, line.abscissa)
-    modes = {
-        parity: _low_modes(solution, parity, spectra, wanted)
-        for parity, spectra in start.eigenvalues.items()
-    }
-    return _judged(modes, line)
+    found = linear_stabilities([solution], disturbances, count, tolerance, others)[0]
+    if isinstance(found, ConvergenceError):
+        raise found
+    return found
 
 
 @checked
-def stacked_starts(solutions: Sequence[RadialSolution], parities: Sequence[Parity]) -> list[Start]:
-    """Return what :func:`linear_stability` begins with, for solutions of one hopper at once."""
-    found: dict[int, Start] = {}
+def linear_stabilities(
+    solutions: Sequence[RadialSolution],
+    disturbances: Disturbances | None = None,
+    count: int = LEAST_MODES,
+    tolerance: float = _TOLERANCE,
+    others: float | None = None,
+) -> list[LinearStability | ConvergenceError]:
+    """Return what :func:`linear_stability` does for solutions of one hopper, or the error of each.
+
+    They are computed together, as at these sizes numpy's overhead is most of the cost.
+
+    Raises
+    ------
+    InvalidParameterError
+        As :func:`linear_stability`.
+    """
+    if not solutions:
+        return []
+    parities = parities_among(disturbances, solutions[0].hopper.geometry)
     groups: dict[tuple[float, tuple[int, ...]], list[int]] = {}
     for i, solution in enumerate(solutions):
         layer = layer_clustering(solution.hopper, solution.member.tau)
-        groups.setdefault((layer, _first_sizes(solution)), []).append(i)
+        groups.setdefault((layer, _sizes(solution)), []).append(i)
+    found: dict[int, LinearStability | ConvergenceError] = {}
     for (_, sizes), group in groups.items():
         chosen = [solutions[i] for i in group]
-        line_grid = mode_grid(chosen[0], LINE_SIZES[0], "symmetric")
-        grids = [mode_grid(chosen[0], m, parity) for parity in parities for m in sizes]
-        *first, last = stacked_on_grids(chosen, [*grids, line_grid])
-        lines = lines_on(chosen, line_grid, last)
-        spectra = [
-            np.linalg.eigvals(assemble(grid, at)) for grid, at in zip(grids, first, strict=True)
-        ]
+        lines, spectra = _first_meshes(chosen, parities, sizes[:_TOGETHER], tolerance)
+        levels = [np.inf if isinstance(one, Exception) else one.abscissa for one in lines]
+        wanted = _Wanted(max(count, LEAST_MODES), tolerance, others or tolerance, np.array(levels))
+        modes = {
+            parity: _low_modes(chosen, parity, sizes, spectra[parity], wanted)
+            for parity in parities
+        }
         for row, i in enumerate(group):
-            upper = iter([_upper(values[row]) for values in spectra])
-            by_parity = {parity: [next(upper) for _ in sizes] for parity in parities}
-            found[i] = Start(lines[row], by_parity)
+            found[i] = _judged({parity: modes[parity][row] for parity in parities}, lines[row])
     return [found[i] for i in range(len(solutions))]
+
+
+def _first_meshes(
+    solutions: Sequence[RadialSolution],
+    parities: Sequence[Parity],
+    sizes: Sequence[int],
+    tolerance: float,
+) -> tuple[list[AsymptoticLine | ConvergenceError], dict[Parity, list[Complex]]]:
+    """Return the lines, and the eigenvalues of each parity on meshes, of solutions in one layer."""
+    line_grid = mode_grid(solutions[0], LINE_SIZES[0], "symmetric")
+    grids = [mode_grid(solutions[0], m, parity) for parity in parities for m in sizes]
+    *first, last = stacked_on_grids(solutions, [*grids, line_grid])
+    lines: list[AsymptoticLine | ConvergenceError] = []
+    for solution, coarse in zip(solutions, lines_on(solutions, line_grid, last), strict=True):
+        try:
+            lines.append(asymptotic_line(solution, coarse, _LINE_PART * tolerance))
+        except ConvergenceError as error:
+            lines.append(error)
+    spectra = iter(
+        [
+            _upper(np.linalg.eigvals(assemble(grid, at)))
+            for grid, at in zip(grids, first, strict=True)
+        ]
+    )
+    return lines, {parity: [next(spectra) for _ in sizes] for parity in parities}
 
 
 @checked
@@ -247,68 +262,104 @@ def parities_among(disturbances: Disturbances | None, geometry: Geometry) -> tup
     return found[:1] if disturbances == "symmetric" else found
 
 
-def _first_sizes(solution: RadialSolution) -> tuple[int, ...]:
-    """Return the meshes to begin with: a layer in a cone asks the same of solution and modes."""
+def _sizes(solution: RadialSolution) -> tuple[int, ...]:
+    """Return the meshes to use: a layer in a cone asks the same of solution and modes."""
     layered = solution.hopper.curvature and solution.member.grid.size >= _LAYERED
-    return _SIZES[1:3] if layered else _SIZES[:2]
+    return _SIZES[1:] if layered else _SIZES
 
 
-def _judged(modes: dict[Parity, Modes], line: AsymptoticLine) -> LinearStability:
-    parity = max(modes, key=lambda name: modes[name].eigenvalues.real.max())
-    found = modes[parity]
-    highest = found.eigenvalues[found.highest]
+def _judged(
+    found: dict[Parity, Modes | ConvergenceError], line: AsymptoticLine | ConvergenceError
+) -> LinearStability | ConvergenceError:
+    if isinstance(line, ConvergenceError):
+        return line
+    modes: dict[Parity, Modes] = {}
+    for parity, one in found.items():
+        if isinstance(one, ConvergenceError):
+            return one
+        modes[parity] = one
+    top = max(modes, key=lambda name: modes[name].eigenvalues[modes[name].highest].real)
+    governing = modes[top]
+    highest = governing.eigenvalues[governing.highest]
     if highest.real <= line.abscissa:
         return LinearStability(modes, line, line.abscissa, "line", None, line.error_estimate)
     governor: Governor = "complex mode" if highest.imag else "real mode"
-    error = float(found.errors[found.highest])
-    return LinearStability(modes, line, float(highest.real), governor, parity, error)
+    error = float(governing.errors[governing.highest])
+    return LinearStability(modes, line, float(highest.real), governor, top, error)
 
 
 @dataclass(frozen=True)
 class _Wanted:
-    """How many modes, to which relative errors, and the line that may govern in their place."""
+    """How many modes, to which relative errors, and the lines that may govern in their place."""
 
     count: int
     tolerance: float
     others: float
-    line: float
+    lines: Array
 
 
 def _low_modes(
-    solution: RadialSolution, parity: Parity, start: list[Complex], wanted: _Wanted
-) -> Modes:
-    """Return converged low modes; ``start`` has those of the first meshes.
+    solutions: Sequence[RadialSolution],
+    parity: Parity,
+    sizes: Sequence[int],
+    start: Sequence[Complex],
+    wanted: _Wanted,
+) -> list[Modes | ConvergenceError]:
+    """Return converged low modes of each solution; ``start`` has those of the first meshes.
 
     They are as many as wanted, and more if one of larger modulus governs.
     Errors decay geometrically with the mesh, so that of the finer of two meshes is about their
     difference to the power of their ratio. A mode counts while it and all of smaller modulus have
     a partner on the coarser mesh and an error below what is wanted by that estimate.
     """
-    coarse, best = start[0], None
-    sizes = _SIZES[_SIZES.index(_first_sizes(solution)[0]) :]
-    for index, (previous, size) in enumerate(pairwise(sizes), 1):
-        fine = start[index] if index < len(start) else upper_eigenvalues(solution, size, parity)
-        error = partner_changes(fine, coarse) ** (size / previous)
-        coarse = fine
-        unresolved = np.flatnonzero(error > wanted.others)
-        run = int(unresolved[0]) if unresolved.size else fine.size
-        if run < LEAST_MODES:
-            continue
-        # Rounding of the collocation matrix: a few units of its condition, about size ** 2.
-        relative = _MESH_SAFETY * error[:run] + _EPS * size**2
-        relative += _FIELD_SAFETY * solution.member.error
-        resolved = Modes(fine[:run], relative * np.maximum(np.abs(fine[:run]), 1))
-        best = resolved._first(wanted.count, wanted.line)
-        converged, top = best.eigenvalues.size, best.highest
-        by_line = wanted.line - best.eigenvalues[top].real > best.errors[top]
-        if converged >= wanted.count and (by_line or error[top] < wanted.tolerance):
-            return best
-    if best is None:
-        raise ConvergenceError(
-            f"fewer than {LEAST_MODES} low {parity} modes converged at {size} half-grid points; "
-            f"{not_resolved_because(solution.friction_angle)}"
+    found: list[Modes | ConvergenceError] = [
+        ConvergenceError(
+            f"fewer than {LEAST_MODES} low {parity} modes converged at {sizes[-1]} half-grid "
+            f"points; {not_resolved_because(solution.friction_angle)}"
         )
-    return best
+        for solution in solutions
+    ]
+    rows: NDArray[np.intp] = np.arange(len(solutions))
+    coarse = start[0]
+    of_fields = np.array([solution.member.error for solution in solutions])
+    for index, (previous, size) in enumerate(pairwise(sizes), 1):
+        if index < len(start):
+            fine = start[index]
+        else:
+            matrices = [tilted_matrix(solutions[int(i)], size, parity) for i in rows]
+            fine = _upper(np.linalg.eigvals(np.stack(matrices)))
+        error = _partner_changes(fine, coarse) ** (size / previous)
+        run = np.logical_and.accumulate(error <= wanted.others, axis=1)
+        # Rounding of the collocation matrix: a few units of its condition, about size ** 2.
+        relative = _MESH_SAFETY * error + _EPS * size**2 + _FIELD_SAFETY * of_fields[rows, None]
+        errors = np.where(run, relative * np.maximum(np.abs(fine), 1), 0.0)
+        lines, real = wanted.lines[rows], np.where(run, fine.real, -np.inf)
+        counts = _counts(real, errors, wanted.count, lines)
+        real[np.arange(real.shape[1]) >= counts[:, None]] = -np.inf
+        top = np.arange(rows.size), real.argmax(axis=1)
+        enough = run.sum(axis=1) >= LEAST_MODES
+        for row in np.flatnonzero(enough):
+            kept = slice(counts[row])
+            found[rows[row]] = Modes(fine[row, kept], errors[row, kept])
+        by_line = lines - real[top] > errors[top]
+        done = enough & (counts >= wanted.count) & (by_line | (error[top] < wanted.tolerance))
+        rows, coarse = rows[~done], fine[~done]
+        if not rows.size:
+            break
+    return found
+
+
+def _counts(real: Array, errors: Array, count: int, lines: Array) -> NDArray[np.intp]:
+    """Return how many modes to keep of each row: the first, up to one that exceeds them and lines.
+
+    ``real`` is -inf beyond the resolved ones.
+    """
+    level = np.maximum(lines, real[:, :count].max(axis=1))
+    beyond = real - errors
+    beyond[:, :count] = -np.inf
+    highest = beyond.argmax(axis=1)
+    exceeds = beyond[np.arange(highest.size), highest] > level
+    return np.where(exceeds, highest + 1, np.minimum(count, np.isfinite(real).sum(axis=1)))
 
 
 @checked
@@ -319,12 +370,19 @@ def partner_changes(fine: ComplexRow, coarse: ComplexRow) -> Array:
     """
     if not coarse.size:
         return np.full(fine.size, np.inf)
-    distance = np.abs(fine[:, None] - coarse)
-    partner, own = distance.argmin(axis=1), np.arange(fine.size)
-    change = distance[own, partner] / np.maximum(np.abs(fine), 1)
-    first = np.empty(coarse.size, dtype=int)
-    first[partner[::-1]] = own[::-1]
-    change[first[partner] != own] = np.inf
+    return _partner_changes(fine[None], coarse[None])[0]
+
+
+def _partner_changes(fine: Complex, coarse: Complex) -> Array:
+    """Return the same for rows of modes; nan where inf fills a row."""
+    with np.errstate(invalid="ignore"):
+        distance = np.abs(fine[:, :, None] - coarse[:, None])
+        partner, own = distance.argmin(axis=2), np.arange(fine.shape[1])
+        change = np.take_along_axis(distance, partner[..., None], axis=2)[..., 0]
+        change /= np.maximum(np.abs(fine), 1)
+    first = np.full(coarse.shape, own.size)
+    np.minimum.at(first, (np.arange(len(fine))[:, None], partner), own)
+    change[np.take_along_axis(first, partner, axis=1) != own] = np.inf
     return change
 
 
@@ -340,9 +398,11 @@ def upper_eigenvalues(solution: RadialSolution, size: int, parity: Parity = "sym
     >>> upper_eigenvalues(solution, 24)[:2].round(4)
     array([-14.2776 +0.j   ,  -4.4827+16.902j])
     """
-    return _upper(np.linalg.eigvals(tilted_matrix(solution, size, parity)))
+    return _upper(np.linalg.eigvals(tilted_matrix(solution, size, parity))[None])[0]
 
 
 def _upper(values: Numbers) -> Complex:
-    upper = values[values.imag >= 0].astype(np.complex128)
-    return upper[np.argsort(np.abs(upper))]
+    """Return rows of eigenvalues with Im >= 0 by increasing modulus, filled up with inf."""
+    upper = np.where(values.imag >= 0, values, np.inf).astype(np.complex128, copy=False)
+    ordered = np.take_along_axis(upper, np.abs(upper).argsort(axis=1), axis=1)
+    return ordered[:, : np.isfinite(upper).sum(axis=1).max()]
