@@ -19,8 +19,8 @@ from hopper.problem import Geometry
 from hopper.spectral import chebyshev
 from hopper.spectral.matching import relative_changes
 from hopper.stability.convergence_filter import convergence_filter
+from hopper.stability.low_modes import upper_eigenvalues
 from hopper.stability.mesh_spectrum import mesh_spectrum
-from hopper.stability.modes import upper_eigenvalues
 from hopper.stability.paper_matrix import paper_matrix
 
 MESHES = (400, 200)

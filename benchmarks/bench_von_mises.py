@@ -18,7 +18,7 @@ from hopper.errors import HopperError
 from hopper.problem import Hopper
 from hopper.radial.grid import half_grid
 from hopper.radial.solution import RadialSolution, solve_radial
-from hopper.stability.modes import partner_changes
+from hopper.stability.low_modes import partner_changes
 from hopper.von_mises.linearisation import coefficients
 from hopper.von_mises.modes import LEAST_MODES, upper_eigenvalues
 from hopper.von_mises.verdict import judge

@@ -27,7 +27,7 @@ COUPLED_FLAGS: Table = (
 
 
 def eigenvalues(which: str, prefix: str = "") -> Table:
-    """Return the table of :class:`hopper.stability.modes.Modes`, variables named with a prefix."""
+    """Return the table of :class:`hopper.stability.low_modes.Modes`, names with a prefix."""
     name, over = f"{prefix}eigenvalue", f"{prefix}mode"
     return (
         complex_number(name, f"{which} mode, Im >= 0", over, "eigenvalues"),

@@ -36,7 +36,7 @@ from hopper.radial.collocation import Closure, newton
 from hopper.radial.grid import half_grid
 from hopper.radial.velocity import decay_exponent
 from hopper.spectral.transient import modal_matrix
-from hopper.stability.modes import partner_changes, upper_eigenvalues
+from hopper.stability.low_modes import partner_changes, upper_eigenvalues
 from hopper.stability.transient import tilted_basis
 from hopper.yield_conditions import MOHR_COULOMB, VON_MISES
 from tests.radial import witness

@@ -15,14 +15,9 @@ from hopper.stability import smooth_wall
 from hopper.stability.asymptotic_line import LINE_SIZES, asymptotic_line, lines_on
 from hopper.stability.collocation import mode_grid, parities_of
 from hopper.stability.convergence_filter import convergence_filter
+from hopper.stability.low_modes import Modes, partner_changes, upper_eigenvalues
 from hopper.stability.mesh_spectrum import mesh_spectrum
-from hopper.stability.modes import (
-    LinearStability,
-    Modes,
-    linear_stabilities,
-    partner_changes,
-    upper_eigenvalues,
-)
+from hopper.stability.modes import LinearStability, linear_stabilities
 from hopper.stability.tilted import stacked_on_grids
 from hopper.yield_conditions import VON_MISES
 from tests.stability.tilted_chebyshev import staggered_modes

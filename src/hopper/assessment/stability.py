@@ -15,16 +15,8 @@ from hopper.quantity import Quantity
 from hopper.radial.solution import RadialSolution
 from hopper.spectral.transient import ModalBasis, condition_number, propagator_norm
 from hopper.stability.collocation import Parity
-from hopper.stability.modes import (
-    LEAST_MODES,
-    Disturbances,
-    LinearStability,
-    Modes,
-    Verdict,
-    linear_stability,
-    partner_changes,
-    upper_eigenvalues,
-)
+from hopper.stability.low_modes import LEAST_MODES, Modes, partner_changes, upper_eigenvalues
+from hopper.stability.modes import Disturbances, LinearStability, Verdict, linear_stability
 from hopper.stability.transient import tilted_basis
 
 # Half-grid points on which eigenvalues are followed under a shift of the fields.

@@ -19,13 +19,8 @@ from hopper.radial.members import physical_member
 from hopper.radial.refinement import solve
 from hopper.radial.solution import solution_of
 from hopper.stability.asymptotic_line import asymptotic_line
-from hopper.stability.modes import (
-    Disturbances,
-    LinearStability,
-    linear_stability,
-    parities_among,
-    upper_eigenvalues,
-)
+from hopper.stability.low_modes import upper_eigenvalues
+from hopper.stability.modes import Disturbances, LinearStability, linear_stability, parities_among
 from hopper.values import require_angle
 
 # Half-grid points and low modes for what else is neutral at a fold.

@@ -19,7 +19,7 @@ from hopper.radial.friction_limit import fold_near, friction_limit
 from hopper.radial.grid import half_grid
 from hopper.radial.members import member_with_tau
 from hopper.radial.solution import solution_of
-from hopper.stability.modes import upper_eigenvalues
+from hopper.stability.low_modes import upper_eigenvalues
 
 _SIZE, _COARSE_SIZE = 80, 54
 # Distance in log(tau) from the fold at which growing real modes are counted.

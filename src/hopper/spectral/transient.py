@@ -273,17 +273,8 @@ def growth_curve(
     """Return times from start to stop, and exp(-t alpha) ||exp(t M)|| at them.
 
     The first times are half a period of the fastest mode apart, as that is what makes peaks and
-    dips; where lines between them are off by more than 1 % in the middle there are more, so that
-    the drawn curve is the curve.
-
-    Parameters
-    ----------
-    bases : sequence of ModalBasis
-        Of one or both parities.
-    start, stop : float
-        Not negative, stop above start.
-    least : int
-        Number of equally spaced times that there are in any case, at least 2.
+    dips, and ``least`` at least; where lines between them are off by more than 1 % in the middle
+    there are more, so that the drawn curve is the curve.
 
     Returns
     -------

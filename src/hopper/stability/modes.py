@@ -10,17 +10,14 @@ A cone is judged by axisymmetric disturbances without swirl, a wedge by both par
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from itertools import pairwise
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
-from hopper.arguments import ComplexRow, checked
-from hopper.arrays import Array, Complex, Numbers
+from hopper.arguments import checked
+from hopper.arrays import Complex, Numbers
 from hopper.brief import brief
-from hopper.errors import ConvergenceError, not_resolved_because
+from hopper.errors import ConvergenceError
 from hopper.problem import Geometry
 from hopper.radial.grid import layer_clustering
 from hopper.radial.solution import RadialSolution
@@ -31,8 +28,8 @@ from hopper.stability.collocation import (
     mode_grid,
     parities_of,
     require_disturbance,
-    tilted_matrix,
 )
+from hopper.stability.low_modes import LEAST_MODES, Modes, low_modes, mesh_sizes
 from hopper.stability.tilted import stacked_on_grids
 
 Disturbances = Literal["symmetric", "any"]
@@ -40,44 +37,11 @@ Governor = Literal["line", "complex mode", "real mode"]
 GOVERNORS: tuple[Governor, ...] = ("line", "complex mode", "real mode")
 Verdict = Literal["stable", "stable_symmetric_only", "unstable", "neutral"]
 
-# Half-grid points; many solutions are computed together on the first two meshes.
-_SIZES, _TOGETHER = (12, 16, 22, 36, 54, 80, 120), 2
-# Half-grid points of a cone's radial solution from which on the first mesh is too coarse.
-_LAYERED = 36
+# Meshes on which many solutions are computed together.
+_TOGETHER = 2
 _TOLERANCE = 1e-10
 # Of the tolerance, what the quadrature of the line may take.
 _LINE_PART = 0.1
-LEAST_MODES = 3
-# Estimates of a mode's error are orders of magnitude: that by two meshes guesses the rate of
-# convergence (one of 748 random sets of modes exceeded a hundred times the guess).
-_MESH_SAFETY, _FIELD_SAFETY = 100, 10
-_EPS = float(np.finfo(float).eps)
-
-
-@dataclass(frozen=True)
-class Modes:
-    """Converged low modes of one parity with Im >= 0, by increasing modulus.
-
-    ``errors`` are absolute, what the mesh and the error of the radial fields leave in them.
-    """
-
-    eigenvalues: Complex
-    errors: Array
-
-    __repr__ = brief("eigenvalues", "errors")
-
-    @cached_property
-    def highest(self) -> int:
-        """Index of the mode with the largest real part."""
-        return int(np.argmax(self.eigenvalues.real))
-
-    @checked
-    def supremum(self, line: AsymptoticLine) -> tuple[float, float]:
-        """Return the larger of the highest real part and the line's, with its error."""
-        value = float(self.eigenvalues[self.highest].real)
-        if value > line.abscissa:
-            return value, float(self.errors[self.highest])
-        return line.abscissa, line.error_estimate
 
 
 @dataclass(frozen=True)
@@ -203,48 +167,42 @@ def linear_stabilities(
     if not solutions:
         return []
     parities = parities_among(disturbances, solutions[0].hopper.geometry)
+    found: dict[int, LinearStability | ConvergenceError] = {}
     groups: dict[tuple[float, tuple[int, ...]], list[int]] = {}
     for i, solution in enumerate(solutions):
         layer = layer_clustering(solution.hopper, solution.member.tau)
-        groups.setdefault((layer, _sizes(solution)), []).append(i)
-    found: dict[int, LinearStability | ConvergenceError] = {}
+        groups.setdefault((layer, mesh_sizes(solution)), []).append(i)
+    wanted = max(count, LEAST_MODES), tolerance, others or tolerance
     for (_, sizes), group in groups.items():
-        chosen = [solutions[i] for i in group]
-        lines, spectra = _first_meshes(chosen, parities, sizes[:_TOGETHER], tolerance)
-        levels = [np.inf if isinstance(one, Exception) else one.abscissa for one in lines]
-        wanted = _Wanted(max(count, LEAST_MODES), tolerance, others or tolerance, np.array(levels))
-        modes = {
-            parity: _low_modes(chosen, parity, sizes, spectra[parity], wanted)
-            for parity in parities
-        }
+        coarse, spectra = _first_meshes([solutions[i] for i in group], parities, sizes[:_TOGETHER])
+        lines: dict[int, AsymptoticLine] = {}
         for row, i in enumerate(group):
-            found[i] = _judged({parity: modes[parity][row] for parity in parities}, lines[row])
+            try:
+                lines[row] = asymptotic_line(solutions[i], coarse[row], _LINE_PART * tolerance)
+            except ConvergenceError as error:
+                found[i] = error
+        rows, chosen = list(lines), [solutions[group[row]] for row in lines]
+        levels = np.array([line.abscissa for line in lines.values()])
+        modes = {
+            parity: low_modes(chosen, parity, [some[rows] for some in start], levels, *wanted)
+            for parity, start in spectra.items()
+        }
+        for place, (row, line) in enumerate(lines.items()):
+            found[group[row]] = _judged({parity: modes[parity][place] for parity in modes}, line)
     return [found[i] for i in range(len(solutions))]
 
 
 def _first_meshes(
-    solutions: Sequence[RadialSolution],
-    parities: Sequence[Parity],
-    sizes: Sequence[int],
-    tolerance: float,
-) -> tuple[list[AsymptoticLine | ConvergenceError], dict[Parity, list[Complex]]]:
-    """Return the lines, and the eigenvalues of each parity on meshes, of solutions in one layer."""
+    solutions: Sequence[RadialSolution], parities: Sequence[Parity], sizes: Sequence[int]
+) -> tuple[list[AsymptoticLine], dict[Parity, list[Numbers]]]:
+    """Return coarse lines, and eigenvalues of each parity on meshes, of solutions in one layer."""
     line_grid = mode_grid(solutions[0], LINE_SIZES[0], "symmetric")
     grids = [mode_grid(solutions[0], m, parity) for parity in parities for m in sizes]
     *first, last = stacked_on_grids(solutions, [*grids, line_grid])
-    lines: list[AsymptoticLine | ConvergenceError] = []
-    for solution, coarse in zip(solutions, lines_on(solutions, line_grid, last), strict=True):
-        try:
-            lines.append(asymptotic_line(solution, coarse, _LINE_PART * tolerance))
-        except ConvergenceError as error:
-            lines.append(error)
-    spectra = iter(
-        [
-            _upper(np.linalg.eigvals(assemble(grid, at)))
-            for grid, at in zip(grids, first, strict=True)
-        ]
-    )
-    return lines, {parity: [next(spectra) for _ in sizes] for parity in parities}
+    matrices = [assemble(grid, at) for grid, at in zip(grids, first, strict=True)]
+    spectra = iter([np.linalg.eigvals(stack) for stack in matrices])
+    by_parity = {parity: [next(spectra) for _ in sizes] for parity in parities}
+    return lines_on(solutions, line_grid, last), by_parity
 
 
 @checked
@@ -262,17 +220,9 @@ def parities_among(disturbances: Disturbances | None, geometry: Geometry) -> tup
     return found[:1] if disturbances == "symmetric" else found
 
 
-def _sizes(solution: RadialSolution) -> tuple[int, ...]:
-    """Return the meshes to use: a layer in a cone asks the same of solution and modes."""
-    layered = solution.hopper.curvature and solution.member.grid.size >= _LAYERED
-    return _SIZES[1:] if layered else _SIZES
-
-
 def _judged(
-    found: dict[Parity, Modes | ConvergenceError], line: AsymptoticLine | ConvergenceError
+    found: dict[Parity, Modes | ConvergenceError], line: AsymptoticLine
 ) -> LinearStability | ConvergenceError:
-    if isinstance(line, ConvergenceError):
-        return line
     modes: dict[Parity, Modes] = {}
     for parity, one in found.items():
         if isinstance(one, ConvergenceError):
@@ -286,123 +236,3 @@ def _judged(
     governor: Governor = "complex mode" if highest.imag else "real mode"
     error = float(governing.errors[governing.highest])
     return LinearStability(modes, line, float(highest.real), governor, top, error)
-
-
-@dataclass(frozen=True)
-class _Wanted:
-    """How many modes, to which relative errors, and the lines that may govern in their place."""
-
-    count: int
-    tolerance: float
-    others: float
-    lines: Array
-
-
-def _low_modes(
-    solutions: Sequence[RadialSolution],
-    parity: Parity,
-    sizes: Sequence[int],
-    start: Sequence[Complex],
-    wanted: _Wanted,
-) -> list[Modes | ConvergenceError]:
-    """Return converged low modes of each solution; ``start`` has those of the first meshes.
-
-    They are as many as wanted, and more if one of larger modulus governs.
-    Errors decay geometrically with the mesh, so that of the finer of two meshes is about their
-    difference to the power of their ratio. A mode counts while it and all of smaller modulus have
-    a partner on the coarser mesh and an error below what is wanted by that estimate.
-    """
-    found: list[Modes | ConvergenceError] = [
-        ConvergenceError(
-            f"fewer than {LEAST_MODES} low {parity} modes converged at {sizes[-1]} half-grid "
-            f"points; {not_resolved_because(solution.friction_angle)}"
-        )
-        for solution in solutions
-    ]
-    rows: NDArray[np.intp] = np.arange(len(solutions))
-    coarse = start[0]
-    of_fields = np.array([solution.member.error for solution in solutions])
-    for index, (previous, size) in enumerate(pairwise(sizes), 1):
-        if index < len(start):
-            fine = start[index]
-        else:
-            matrices = [tilted_matrix(solutions[int(i)], size, parity) for i in rows]
-            fine = _upper(np.linalg.eigvals(np.stack(matrices)))
-        error = _partner_changes(fine, coarse) ** (size / previous)
-        run = np.logical_and.accumulate(error <= wanted.others, axis=1)
-        # Rounding of the collocation matrix: a few units of its condition, about size ** 2.
-        relative = _MESH_SAFETY * error + _EPS * size**2 + _FIELD_SAFETY * of_fields[rows, None]
-        errors = np.where(run, relative * np.maximum(np.abs(fine), 1), 0.0)
-        lines, real = wanted.lines[rows], np.where(run, fine.real, -np.inf)
-        counts = _counts(real, errors, wanted.count, lines)
-        real[np.arange(real.shape[1]) >= counts[:, None]] = -np.inf
-        top = np.arange(rows.size), real.argmax(axis=1)
-        enough = run.sum(axis=1) >= LEAST_MODES
-        for row in np.flatnonzero(enough):
-            kept = slice(counts[row])
-            found[rows[row]] = Modes(fine[row, kept], errors[row, kept])
-        by_line = lines - real[top] > errors[top]
-        done = enough & (counts >= wanted.count) & (by_line | (error[top] < wanted.tolerance))
-        rows, coarse = rows[~done], fine[~done]
-        if not rows.size:
-            break
-    return found
-
-
-def _counts(real: Array, errors: Array, count: int, lines: Array) -> NDArray[np.intp]:
-    """Return how many modes to keep of each row: the first, up to one that exceeds them and lines.
-
-    ``real`` is -inf beyond the resolved ones.
-    """
-    level = np.maximum(lines, real[:, :count].max(axis=1))
-    beyond = real - errors
-    beyond[:, :count] = -np.inf
-    highest = beyond.argmax(axis=1)
-    exceeds = beyond[np.arange(highest.size), highest] > level
-    return np.where(exceeds, highest + 1, np.minimum(count, np.isfinite(real).sum(axis=1)))
-
-
-@checked
-def partner_changes(fine: ComplexRow, coarse: ComplexRow) -> Array:
-    """Return the distance of each mode to its partner, inf where another one has it.
-
-    Relative to the modulus where that is above 1.
-    """
-    if not coarse.size:
-        return np.full(fine.size, np.inf)
-    return _partner_changes(fine[None], coarse[None])[0]
-
-
-def _partner_changes(fine: Complex, coarse: Complex) -> Array:
-    """Return the same for rows of modes; nan where inf fills a row."""
-    with np.errstate(invalid="ignore"):
-        distance = np.abs(fine[:, :, None] - coarse[:, None])
-        partner, own = distance.argmin(axis=2), np.arange(fine.shape[1])
-        change = np.take_along_axis(distance, partner[..., None], axis=2)[..., 0]
-        change /= np.maximum(np.abs(fine), 1)
-    first = np.full(coarse.shape, own.size)
-    np.minimum.at(first, (np.arange(len(fine))[:, None], partner), own)
-    change[np.take_along_axis(first, partner, axis=1) != own] = np.inf
-    return change
-
-
-@checked
-def upper_eigenvalues(solution: RadialSolution, size: int, parity: Parity = "symmetric") -> Complex:
-    """Return the eigenvalues with Im >= 0 on ``size`` half-grid points, by increasing modulus.
-
-    Examples
-    --------
-    >>> from hopper import Hopper, solve_radial
-    >>> from hopper.stability.modes import upper_eigenvalues
-    >>> solution = solve_radial(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.3)
-    >>> upper_eigenvalues(solution, 24)[:2].round(4)
-    array([-14.2776 +0.j   ,  -4.4827+16.902j])
-    """
-    return _upper(np.linalg.eigvals(tilted_matrix(solution, size, parity))[None])[0]
-
-
-def _upper(values: Numbers) -> Complex:
-    """Return rows of eigenvalues with Im >= 0 by increasing modulus, filled up with inf."""
-    upper = np.where(values.imag >= 0, values, np.inf).astype(np.complex128, copy=False)
-    ordered = np.take_along_axis(upper, np.abs(upper).argsort(axis=1), axis=1)
-    return ordered[:, : np.isfinite(upper).sum(axis=1).max()]

@@ -79,7 +79,7 @@ def tilted_basis(solution: RadialSolution, m: int, parity: Parity, kept: Complex
     --------
     >>> from hopper import Hopper, solve_radial
     >>> from hopper.spectral.transient import condition_number
-    >>> from hopper.stability.modes import upper_eigenvalues
+    >>> from hopper.stability.low_modes import upper_eigenvalues
     >>> from hopper.stability.transient import tilted_basis
     >>> solution = solve_radial(Hopper("cone", delta=0.7, half_angle=0.35), friction_angle=0.3)
     >>> mode = upper_eigenvalues(solution, 32)[1]

@@ -18,7 +18,7 @@ from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.radial.grid import half_grid
 from hopper.radial.solution import RadialSolution
 from hopper.spectral.matching import by_modulus
-from hopper.stability.modes import partner_changes
+from hopper.stability.low_modes import partner_changes
 from hopper.von_mises.collocation import assemble, without_flow_rate
 from hopper.von_mises.linearisation import Coefficients, coefficients
 
