@@ -100,7 +100,7 @@ def low_modes(
     if not solutions:
         return []
     sizes, spectra = mesh_sizes(solutions[0]), [_rows_of_upper(values) for values in start]
-    found = [_too_few(solution, parity, sizes[-1]) for solution in solutions]
+    found: list[Modes | None] = [None] * len(solutions)
     rows: NDArray[np.intp] = np.arange(len(solutions))
     coarse, of_fields = spectra[0], np.array([solution.member.error for solution in solutions])
     for index, (previous, size) in enumerate(pairwise(sizes), 1):
@@ -126,10 +126,13 @@ def low_modes(
         rows, coarse = rows[going_on], fine[going_on]
         if not rows.size:
             break
-    return found
+    return [
+        _too_few(solutions[i], parity, sizes[-1]) if one is None else one
+        for i, one in enumerate(found)
+    ]
 
 
-def _too_few(solution: RadialSolution, parity: Parity, size: int) -> Modes | ConvergenceError:
+def _too_few(solution: RadialSolution, parity: Parity, size: int) -> ConvergenceError:
     return ConvergenceError(
         f"fewer than {LEAST_MODES} low {parity} modes converged at {size} half-grid points; "
         f"{not_resolved_because(solution.friction_angle)}"
@@ -162,14 +165,14 @@ def partner_changes(fine: ComplexRow, coarse: ComplexRow) -> Array:
 
 def _partner_changes(fine: Complex, coarse: Complex) -> Array:
     """Return the same for rows of modes; nan where inf fills a row."""
+    row, own = np.arange(len(fine))[:, None], np.arange(fine.shape[1])
     with np.errstate(invalid="ignore"):
         distance = np.abs(fine[:, :, None] - coarse[:, None])
-        partner, own = distance.argmin(axis=2), np.arange(fine.shape[1])
-        change = np.take_along_axis(distance, partner[..., None], axis=2)[..., 0]
-        change /= np.maximum(np.abs(fine), 1)
+        partner = distance.argmin(axis=2)
+        change = distance[row, own, partner] / np.maximum(np.abs(fine), 1)
     first = np.full(coarse.shape, own.size)
-    np.minimum.at(first, (np.arange(len(fine))[:, None], partner), own)
-    change[np.take_along_axis(first, partner, axis=1) != own] = np.inf
+    np.minimum.at(first, (row, partner), own)
+    change[first[row, partner] != own] = np.inf
     return change
 
 
@@ -191,5 +194,5 @@ def upper_eigenvalues(solution: RadialSolution, size: int, parity: Parity = "sym
 def _rows_of_upper(values: Numbers) -> Complex:
     """Return rows of eigenvalues with Im >= 0 by increasing modulus, filled up with inf."""
     upper = np.where(values.imag >= 0, values, np.inf).astype(np.complex128, copy=False)
-    ordered = np.take_along_axis(upper, np.abs(upper).argsort(axis=1), axis=1)
-    return ordered[:, : np.isfinite(upper).sum(axis=1).max()]
+    ordered = upper[np.arange(len(upper))[:, None], np.abs(upper).argsort(axis=1)]
+    return ordered[:, : np.isfinite(ordered).sum(axis=1).max()]
