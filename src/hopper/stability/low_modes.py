@@ -107,8 +107,7 @@ def low_modes(
         if index < len(spectra):
             fine = spectra[index]
         else:
-            matrices = [tilted_matrix(solutions[int(i)], size, parity) for i in rows]
-            fine = _rows_of_upper(np.linalg.eigvals(np.stack(matrices)))
+            fine = _rows_of_upper(_spectra([solutions[int(i)] for i in rows], size, parity))
         error = _partner_changes(fine, coarse) ** (size / previous)
         run = np.logical_and.accumulate(error <= others, axis=1)
         # Rounding of the collocation matrix: a few units of its condition, about size ** 2.
@@ -126,10 +125,11 @@ def low_modes(
         rows, coarse = rows[going_on], fine[going_on]
         if not rows.size:
             break
-    return [
-        _too_few(solutions[i], parity, sizes[-1]) if one is None else one
-        for i, one in enumerate(found)
-    ]
+    return [one or _too_few(solutions[i], parity, sizes[-1]) for i, one in enumerate(found)]
+
+
+def _spectra(solutions: Sequence[RadialSolution], size: int, parity: Parity) -> Numbers:
+    return np.linalg.eigvals(np.stack([tilted_matrix(one, size, parity) for one in solutions]))
 
 
 def _too_few(solution: RadialSolution, parity: Parity, size: int) -> ConvergenceError:
@@ -188,7 +188,7 @@ def upper_eigenvalues(solution: RadialSolution, size: int, parity: Parity = "sym
     >>> upper_eigenvalues(solution, 24)[:2].round(4)
     array([-14.2776 +0.j   ,  -4.4827+16.902j])
     """
-    return _rows_of_upper(np.linalg.eigvals(tilted_matrix(solution, size, parity))[None])[0]
+    return _rows_of_upper(_spectra([solution], size, parity))[0]
 
 
 def _rows_of_upper(values: Numbers) -> Complex:
