@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hopper.arguments import ComplexRow, Positive, checked
 from hopper.arrays import Array, Complex, Numbers
 from hopper.brief import brief
-from hopper.errors import ConvergenceError, not_resolved_because
+from hopper.errors import ConvergenceError, InvalidParameterError, not_resolved_because
 from hopper.radial.solution import RadialSolution
 from hopper.stability.asymptotic_line import AsymptoticLine
 from hopper.stability.collocation import Parity, tilted_matrix
@@ -95,13 +95,14 @@ def low_modes(
     Raises
     ------
     InvalidParameterError
-        If the parity is unknown or singular at the apex of a cone.
+        If the parity is unknown or singular at the apex of a cone, or rows are missing.
     """
     if not solutions:
         return []
+    rows: NDArray[np.intp] = np.arange(len(solutions))
+    _require_rows(rows.shape, start, lines)
     sizes, spectra = mesh_sizes(solutions[0]), [_rows_of_upper(values) for values in start]
     found: list[Modes | None] = [None] * len(solutions)
-    rows: NDArray[np.intp] = np.arange(len(solutions))
     coarse, of_fields = spectra[0], np.array([solution.member.error for solution in solutions])
     for index, (previous, size) in enumerate(pairwise(sizes), 1):
         if index < len(spectra):
@@ -126,6 +127,13 @@ def low_modes(
         if not rows.size:
             break
     return [one or _too_few(solutions[i], parity, sizes[-1]) for i, one in enumerate(found)]
+
+
+def _require_rows(shape: tuple[int, ...], start: Sequence[Numbers], lines: Array) -> None:
+    if not start or any(values.ndim != 2 or values.shape[:1] != shape for values in start):
+        raise InvalidParameterError("start must be arrays with a row for each solution")
+    if lines.shape != shape:
+        raise InvalidParameterError("lines must be a row with a number for each solution")
 
 
 def _spectra(solutions: Sequence[RadialSolution], size: int, parity: Parity) -> Numbers:
