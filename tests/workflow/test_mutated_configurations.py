@@ -31,7 +31,7 @@ from tests.workflow.mutations import KINDS, WHOLE, Mutation
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
 EACH = 45  # files of each kind
 RUN = 5  # by the command, whole files and changed ones each
-LIMIT = 3  # seconds for a dry run
+LIMIT = 2.5  # of a dry run's processor time, over that of the configuration as it is
 BUILT = 3  # of those that are accepted, in the short version
 ONE_LINE = re.compile(
     r"config\.yaml (line (?P<line>\d+): |has |cannot ).+|config key '(?P<key>.*?)'.+", re.ASCII
@@ -122,11 +122,14 @@ def files(path: Path) -> set[Path]:
 
 
 def try_with_command(workflow: Workflow, tried: list[Mutation]) -> tuple[Counter[str], float]:
-    """Dry-run every file, assert its outcome; return counts of outcomes and the largest time."""
+    """Dry-run every file, assert its outcome; return counts of outcomes and the largest time.
+
+    That is over the time of the configuration as it is: machines differ.
+    """
     outcomes: Counter[str] = Counter()
     slowest = 0.0
     config = workflow.path / "config.yaml"
-    dry_run(workflow.path)
+    usual = min(dry_run(workflow.path)[2] for _ in range(3))
     before = files(workflow.path)
     for mutation in tried:
         config.write_bytes(mutation.content)
@@ -143,10 +146,10 @@ def try_with_command(workflow: Workflow, tried: list[Mutation]) -> tuple[Counter
             assert lines.count(expected) == 1, f"{mutation.kind}: {said}"
             assert sum("Error" in line for line in lines) == 1, f"{mutation.kind}: {said}"
         outcomes["refused" if expected else "accepted"] += 1
-        if seconds >= LIMIT:  # the least of three: a busy machine only adds
+        if seconds >= LIMIT * usual:  # the least of three: a busy machine only adds
             again = (dry_run(workflow.path)[2] for _ in range(2))
             seconds = min(seconds, *again)
-        slowest = max(slowest, seconds)
+        slowest = max(slowest, seconds / usual)
     assert files(workflow.path) == before
     return outcomes, slowest
 
@@ -190,7 +193,7 @@ def test_a_mutated_configuration_builds_a_dag_or_ends_in_one_line(fresh, monkeyp
             "dry runs of the command": len(chosen),
             "tracebacks": outcomes["tracebacks"],
             "slowest check or DAG (CPU s)": round(slowest, 2),
-            "slowest dry run (CPU s)": round(slowest_run, 2),
+            "slowest dry run, over the usual one": round(slowest_run, 2),
         },
     )
 
@@ -213,7 +216,7 @@ def test_every_mutated_configuration_in_a_dry_run(fresh):
             "refused in one line": outcomes["refused"],
             "accepted, valid DAG": outcomes["accepted"],
             "tracebacks": outcomes["tracebacks"],
-            "slowest dry run (CPU s)": round(slowest, 2),
+            "slowest dry run, over the usual one": round(slowest, 2),
         },
     )
 
