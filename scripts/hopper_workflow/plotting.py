@@ -9,6 +9,8 @@ from typing import Any
 import matplotlib
 
 matplotlib.use("Agg")
+# Whatever a matplotlibrc says: handles of legends are made when the scripts are imported.
+matplotlib.rcdefaults()
 
 import matplotlib.pyplot as plt
 import numpy as np

@@ -103,6 +103,25 @@ def test_a_hostile_environment_leaves_every_byte_as_it_is(fresh, copy_workflow, 
     )
 
 
+def test_what_scripts_make_when_imported_is_in_the_default_style(tmp_path):
+    """Handles of legends: no matplotlibrc, here that of the working directory, enters."""
+    (tmp_path / "matplotlibrc").write_text(MATPLOTLIBRC)
+    code = (
+        "from hopper_workflow import plotting; from matplotlib import rcParams, rcParamsDefault;"
+        "print({k for k, v in rcParamsDefault.items() if k != 'backend' and rcParams[k] != v});"
+        "print(plotting.key('').get_linewidth() == rcParamsDefault['lines.linewidth'])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT / "scripts")},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout.splitlines() == ["set()", "True"]
+
+
 def test_make_and_snakemake_keep_the_same_from_jobs(fresh, tmp_path):
     (fresh.path / "GNUmakefile").write_text("include Makefile\nshow: ; @env -0\n")
     variables = hostile(tmp_path / "home") | {"MPLCONFIGDIR": "kept", "MINE": "kept"}
