@@ -9,8 +9,6 @@ from typing import Any
 import matplotlib
 
 matplotlib.use("Agg")
-# Whatever a matplotlibrc says: handles of legends are made when the scripts are imported.
-matplotlib.rcdefaults()
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -26,6 +24,9 @@ from matplotlib.lines import Line2D
 
 from hopper_cli import drawing
 from hopper_workflow.artifacts import replacing
+
+# Whatever a matplotlibrc says: handles of legends are made when the scripts are imported.
+matplotlib.rcdefaults()
 
 COLUMN_WIDTH, PAGE_WIDTH = 3.4, 7.1  # inches: one column of a page, and two
 SMALL = 7  # points, the least text at these widths
