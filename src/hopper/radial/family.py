@@ -7,8 +7,7 @@ the family ends there.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from dataclasses import replace
 from math import degrees, radians
 
 import numpy as np
@@ -97,31 +96,7 @@ def family(hopper: Hopper) -> Iterator[Member]:
     >>> taus == sorted(taus)
     True
     """
-    return iter(_walk(hopper))
-
-
-@dataclass
-class _Walk:
-    """A walk along a family, which goes on where it stopped: several look at its beginning."""
-
-    rest: Iterator[Member]
-    members: list[Member] = field(default_factory=list)
-
-    def __iter__(self) -> Iterator[Member]:
-        index = 0
-        while True:
-            if index == len(self.members):
-                following = next(self.rest, None)
-                if following is None:
-                    return
-                self.members.append(following)
-            yield self.members[index]
-            index += 1
-
-
-@lru_cache(maxsize=4)
-def _walk(hopper: Hopper) -> _Walk:
-    return _Walk(family_from(smooth_wall_member(hopper)))
+    return family_from(smooth_wall_member(hopper))
 
 
 @checked

@@ -17,7 +17,7 @@ from hopper.errors import ConvergenceError
 from hopper.problem import Hopper
 from hopper.radial.collocation import Closure, Member, newton, predicted
 from hopper.radial.critical_point import cut, limiting_solution
-from hopper.radial.family import WALL_MARGIN, family, family_from, neighbour
+from hopper.radial.family import WALL_MARGIN, family_from, neighbour, smooth_wall_member
 from hopper.radial.grid import mapped_grid
 from hopper.radial.mass_flow import limiting_wall_angle
 from hopper.radial.refinement import fitted
@@ -98,7 +98,7 @@ def first_piece(hopper: Hopper) -> Piece:
     ConvergenceError
         If its end is not resolved.
     """
-    return next(_pieces_among(family(hopper)))
+    return next(pieces_from(smooth_wall_member(hopper)))
 
 
 @checked
@@ -120,21 +120,17 @@ def pieces_from(member: Member, start: Limit | None = None) -> Iterator[Piece]:
     ConvergenceError
         If the end of one is not resolved.
     """
-    return _pieces_among(family_from(member), start)
-
-
-def _pieces_among(walk: Iterator[Member], start: Limit | None = None) -> Iterator[Piece]:
     rising = start is None or start.curvature > 0
     members: list[Member] = []
     looked_for = _EARLY
-    for following in walk:
+    for following in family_from(member):
         members.append(following)
         if len(members) < 2:
             continue
         if turned(following, rising) and (turn := _extremum(members[-2], following, rising)):
             yield Piece(rising, tuple(members[:-1]), start, turn)
             rising, start, members = not rising, turn, [following]
-        elif has_mass_flow_limit(following.hopper):
+        elif has_mass_flow_limit(member.hopper):
             if _steady(members):
                 break
         elif not rising and float(following.gap.min()) < looked_for:
