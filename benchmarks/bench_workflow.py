@@ -16,7 +16,7 @@ from math import radians
 from pathlib import Path
 from statistics import mean, median
 
-from benchmarks.bench_domain import by_the_paper, row
+from benchmarks.bench_domain import POINT, by_the_paper, row
 from hopper import Hopper, solve_radial
 
 ROOT = Path(__file__).parents[1]
@@ -37,7 +37,8 @@ def elapsed(call: Callable[[], object]) -> float:
 
 def unit() -> float:
     """Return the seconds of the paper's algorithm for a hopper."""
-    solution = solve_radial(Hopper("cone", radians(35), radians(10)), radians(10))
+    delta, phi = map(radians, POINT)
+    solution = solve_radial(Hopper("cone", delta, radians(10)), phi)
     by_the_paper(solution)
     return median(elapsed(lambda: by_the_paper(solution)) for _ in range(5))
 
@@ -63,12 +64,11 @@ def cpu_of(code: str) -> float:
 
 def costs_of_figures(clone: Path) -> list[float]:
     """Return the processor seconds of every plot of a finished run."""
-    paths = sorted(clone.glob("logs/plot_*/**/*.benchmark.tsv")) + sorted(
-        clone.glob("logs/plot_*.benchmark.tsv")
-    )
+    logs = clone / "logs"
     return [
         float(line["cpu_time"])
-        for path in paths
+        for path in sorted(logs.rglob("*.benchmark.tsv"))
+        if path.relative_to(logs).parts[0].startswith("plot_")
         for line in csv.DictReader(path.read_text(encoding="utf-8").splitlines(), delimiter="\t")
     ]
 

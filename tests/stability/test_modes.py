@@ -13,9 +13,15 @@ from hopper.radial.fields import stacked_fields
 from hopper.radial.grid import half_grid
 from hopper.stability import smooth_wall
 from hopper.stability.asymptotic_line import LINE_SIZES, asymptotic_line, lines_on
-from hopper.stability.collocation import mode_grid, parities_of
+from hopper.stability.collocation import mode_grid, parities_of, tilted_matrix
 from hopper.stability.convergence_filter import convergence_filter
-from hopper.stability.low_modes import Modes, partner_changes, upper_eigenvalues
+from hopper.stability.low_modes import (
+    Modes,
+    low_modes,
+    mesh_sizes,
+    partner_changes,
+    upper_eigenvalues,
+)
 from hopper.stability.mesh_spectrum import mesh_spectrum
 from hopper.stability.modes import LinearStability, linear_stabilities
 from hopper.stability.tilted import stacked_on_grids
@@ -421,6 +427,25 @@ def test_solutions_together_are_judged_as_one_by_one():
             assert abs(together.line.abscissa - single.line.abscissa) <= (
                 together.line.error_estimate + single.line.error_estimate
             )
+
+
+def test_more_meshes_to_begin_with_give_the_same_modes():
+    """Some solutions are done on the second mesh, others go on: rows stay with their solutions."""
+    hopper = Hopper("cone", radians(40), radians(30))
+    solutions = [solve_radial(hopper, radians(phi)) for phi in (0, 3, 9, 14)]
+    lines = np.array([asymptotic_line(solution).abscissa for solution in solutions])
+    stacks = [
+        np.stack([np.linalg.eigvals(tilted_matrix(one, size, "symmetric")) for one in solutions])
+        for size in mesh_sizes(solutions[0])[:4]
+    ]
+    few, many = (
+        low_modes(solutions, "symmetric", stacks[:count], lines, 3, 1e-12, 1e-12)
+        for count in (2, 4)
+    )
+    for one, other in zip(few, many, strict=True):
+        assert isinstance(one, Modes)
+        assert isinstance(other, Modes)
+        np.testing.assert_array_equal(one.eigenvalues, other.eigenvalues)
 
 
 def test_solutions_of_several_hoppers_do_not_go_together():

@@ -31,7 +31,7 @@ from tests.workflow.mutations import KINDS, WHOLE, Mutation
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
 EACH = 45  # files of each kind
 RUN = 5  # by the command, whole files and changed ones each
-LIMIT = 2.5  # of a dry run's processor time, over that of the configuration as it is
+LIMIT = 1.4  # of a dry run's processor time, over that of the configuration as it is
 BUILT = 3  # of those that are accepted, in the short version
 ONE_LINE = re.compile(
     r"config\.yaml (line (?P<line>\d+): |has |cannot ).+|config key '(?P<key>.*?)'.+", re.ASCII

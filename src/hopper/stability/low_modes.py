@@ -106,7 +106,7 @@ def low_modes(
     coarse, of_fields = spectra[0], np.array([solution.member.error for solution in solutions])
     for index, (previous, size) in enumerate(pairwise(sizes), 1):
         if index < len(spectra):
-            fine = spectra[index]
+            fine = spectra[index][rows]
         else:
             fine = _rows_of_upper(_spectra([solutions[int(i)] for i in rows], size, parity))
         error = _partner_changes(fine, coarse) ** (size / previous)
