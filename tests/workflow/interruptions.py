@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
@@ -83,11 +84,17 @@ def held_job(process: subprocess.Popen[str]) -> psutil.Process:
         for job in jobs_of(process):
             with contextlib.suppress(psutil.NoSuchProcess):
                 job.suspend()
-                if job.status() == psutil.STATUS_STOPPED:
+                # The signal arrives a moment later; a job left behind would stay suspended.
+                if wait_for(partial(_halted, job)) == psutil.STATUS_STOPPED:
                     return job
         return None
 
     return wait_for(hold)
+
+
+def _halted(job: psutil.Process) -> str | None:
+    status = job.status()
+    return status if status in (psutil.STATUS_STOPPED, psutil.STATUS_ZOMBIE) else None
 
 
 def resume(workflow: Workflow, *targets: str) -> None:
