@@ -273,8 +273,9 @@ def test_values_from_the_command_line_are_checked_and_used(fresh):
     assert done.returncode == 0, done.stderr
     assert "compute_case" not in done.stdout
     done = fresh.snakemake("-n", "--config", "cases=[]")
-    assert done.returncode == 0, done.stderr
-    assert "compute_case" not in done.stdout
+    assert done.returncode == 1
+    assert "--config cannot hold the sections" in done.stdout + done.stderr
+    assert "Traceback" not in done.stdout + done.stderr
     for text, message in (
         ("fig_1_1: {theta_deg: 9}\n", "config key 'fig_1_1.theta_deg': 9 is less than the minimum"),
         ("cases: []\ncases: []\n", "other.yaml line 2: key 'cases' is here for the second time"),
