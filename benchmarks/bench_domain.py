@@ -13,16 +13,12 @@ from statistics import median
 from time import process_time
 
 import numpy as np
-from scipy.linalg import eigvals
 
-from hopper import Hopper, RadialSolution, solve_radial
+from benchmarks.paper import by_the_paper
+from hopper import Hopper, solve_radial
 from hopper.domain.stability_map import REGIONS, sweep_friction
 from hopper.problem import Geometry
-from hopper.spectral.matching import relative_changes
-from hopper.stability.paper_matrix import paper_matrix
 
-MESHES = (400, 200)
-TOLERANCE = 1e-3
 # How many times a point should be quicker than by the paper; a wedge's has both parities.
 LEAST: dict[Geometry, dict[int, int]] = {"cone": {10: 600, 30: 450}, "wedge": {10: 350, 30: 350}}
 # delta, phi (deg) of the hopper for the paper's algorithm, whose cost depends on neither.
@@ -41,12 +37,6 @@ def sweep_map(half_angle: float, side: int, geometry: Geometry = "cone") -> tupl
         verdicts += int(np.isfinite(sweep.abscissa).sum())
         unresolved += int(np.sum(sweep.region == REGIONS.index("not_converged")))
     return verdicts, unresolved
-
-
-def by_the_paper(solution: RadialSolution) -> float:
-    """Spectral abscissa of what two meshes agree on, both parities in one matrix."""
-    fine, coarse = (np.asarray(eigvals(paper_matrix(solution, n)), dtype=complex) for n in MESHES)
-    return float(fine[relative_changes(fine, coarse, "nearest") < TOLERANCE].real.max())
 
 
 def seconds(call: Callable[[], object]) -> float:

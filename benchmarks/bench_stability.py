@@ -10,33 +10,17 @@ from statistics import median
 from time import perf_counter
 
 import numpy as np
-from scipy.linalg import eigvals
 
-from hopper import Hopper, LinearStability, RadialSolution, linear_stability, solve_radial
-from hopper.arrays import Complex
+from benchmarks.paper import MESHES, TOLERANCE, by_lapack, by_the_paper
+from hopper import Hopper, LinearStability, linear_stability, solve_radial
 from hopper.errors import HopperError
 from hopper.problem import Geometry
 from hopper.spectral import chebyshev
-from hopper.spectral.matching import relative_changes
 from hopper.stability.convergence_filter import convergence_filter
 from hopper.stability.low_modes import upper_eigenvalues
 from hopper.stability.mesh_spectrum import mesh_spectrum
-from hopper.stability.paper_matrix import paper_matrix
 
-MESHES = (400, 200)
-TOLERANCE = 1e-3
 GEOMETRIES: tuple[Geometry, ...] = ("wedge", "cone")
-
-
-def by_lapack(solution: RadialSolution) -> list[Complex]:
-    """Eigenvalues of the whole matrices."""
-    return [np.asarray(eigvals(paper_matrix(solution, n)), complex) for n in MESHES]
-
-
-def by_the_paper(solution: RadialSolution) -> float:
-    """Spectral abscissa of what both meshes agree on."""
-    fine, coarse = by_lapack(solution)
-    return float(fine[relative_changes(fine, coarse, "nearest") < TOLERANCE].real.max())
 
 
 def by_line_and_low_modes(hopper: Hopper) -> LinearStability:

@@ -16,7 +16,8 @@ from math import radians
 from pathlib import Path
 from statistics import mean, median
 
-from benchmarks.bench_domain import POINT, by_the_paper, row
+from benchmarks.bench_domain import POINT, row
+from benchmarks.paper import by_the_paper
 from hopper import Hopper, solve_radial
 
 ROOT = Path(__file__).parents[1]

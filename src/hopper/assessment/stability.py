@@ -16,7 +16,13 @@ from hopper.radial.solution import RadialSolution
 from hopper.spectral.transient import ModalBasis, condition_number, propagator_norm
 from hopper.stability.collocation import Parity
 from hopper.stability.low_modes import LEAST_MODES, Modes, partner_changes, upper_eigenvalues
-from hopper.stability.modes import Disturbances, LinearStability, Verdict, linear_stability
+from hopper.stability.modes import (
+    Disturbances,
+    LinearStability,
+    Verdict,
+    linear_stability,
+    verdict_of,
+)
 from hopper.stability.transient import tilted_basis
 
 # Half-grid points on which eigenvalues are followed under a shift of the fields.
@@ -93,12 +99,8 @@ class StabilityAssessment:
     @property
     def verdict(self) -> Verdict:
         """Neutral where the error of the abscissa exceeds its size."""
-        if abs(self.abscissa.value) <= self.abscissa.error:
-            return "neutral"
-        if self.abscissa.value < 0:
-            return "stable"
-        symmetric = self.symmetric.value < -self.symmetric.error
-        return "stable_symmetric_only" if symmetric else "unstable"
+        of_any, of_symmetric = self.abscissa, self.symmetric
+        return verdict_of((of_any.value, of_any.error), (of_symmetric.value, of_symmetric.error))
 
 
 @checked

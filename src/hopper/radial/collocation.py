@@ -183,7 +183,7 @@ def top_of(psi: Row) -> float:
     coefficients, angles, samples = _psi_samples(psi.size)
     top = int((samples @ psi).argmax())
     series = coefficients @ psi
-    odd = 2 * np.arange(series.size) + 1
+    odd = _degrees(series.size)
     angle, step = float(angles[top]), angles[1]
     if not top:
         if odd * odd @ series >= 0:
@@ -200,15 +200,14 @@ def top_of(psi: Row) -> float:
 
 
 @checked
-def psi_series(psi: Row) -> Array:
-    """Return the coefficients of cos(x), cos(3 x), ... of psi, x an angle of :func:`top_of`."""
-    return _psi_samples(psi.size)[0] @ psi
-
-
-@checked
 def psi_row(size: int, angle: float) -> Array:
     """Return the row from psi at ``size`` points to its value at an angle of :func:`top_of`."""
-    return np.cos(angle * (2 * np.arange(size) + 1)) @ _psi_samples(size)[0]
+    return np.cos(angle * _degrees(size)) @ _psi_samples(size)[0]
+
+
+def _degrees(size: int) -> Array:
+    """Return 1, 3, ...: psi is a series of cos(x), cos(3 x), ..."""
+    return np.arange(1.0, 2 * size, 2)
 
 
 @lru_cache(maxsize=64)
@@ -219,7 +218,7 @@ def _psi_samples(size: int) -> tuple[Array, Array, Array]:
     """
     coefficients = chebyshev.last_half_coefficients(size, "odd", size)
     angles = np.linspace(0, np.pi / 2, 4 * size)
-    values = np.cos(np.outer(angles, 2 * np.arange(size) + 1)) @ coefficients
+    values = np.cos(np.outer(angles, _degrees(size))) @ coefficients
     return coefficients, angles, values
 
 

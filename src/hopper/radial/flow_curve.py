@@ -19,7 +19,7 @@ from hopper.brief import brief
 from hopper.errors import ConvergenceError
 from hopper.problem import Hopper
 from hopper.quantity import Quantity
-from hopper.radial.collocation import Closure, Member, psi_row, psi_series, top_of
+from hopper.radial.collocation import Closure, Member, psi_row, top_of
 from hopper.radial.family import smooth_wall_member
 from hopper.radial.grid import Grid, half_grid, layer_clustering
 from hopper.radial.refinement import SIZES, TOLERANCE
@@ -77,14 +77,13 @@ class FlowCurve:
         """Return the angle (radians) beyond the top where psi is ``psi_wall``, None if nowhere."""
         if not self.member.psi_wall < psi_wall < pi / 4:
             return None
-        grid, series = self.member.grid, psi_series(self.member.psi)
-        odd = 2 * np.arange(series.size) + 1
+        grid, psi = self.member.grid, self.member.psi
         error = self.member.error + _ROUNDING
 
         def at(level: float) -> float:
             if level >= pi / 4:
                 return self.top
-            return root_between(lambda x: float(np.cos(x * odd) @ series) - level, 0, self.top)
+            return root_between(lambda x: float(psi_row(grid.size, x) @ psi) - level, 0, self.top)
 
         # Close to the top the error goes as the square root: the difference tells.
         levels = (psi_wall, psi_wall - error, psi_wall + error)

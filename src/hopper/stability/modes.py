@@ -96,12 +96,21 @@ class LinearStability:
     @property
     def verdict(self) -> Verdict:
         """Neutral where the error of the abscissa exceeds its size."""
-        if abs(self.abscissa) <= self.error_estimate:
-            return "neutral"
-        if self.stable:
-            return "stable"
-        value, error = self.symmetric
-        return "stable_symmetric_only" if value < -error else "unstable"
+        return verdict_of((self.abscissa, self.error_estimate), self.symmetric)
+
+
+@checked
+def verdict_of(abscissa: tuple[float, float], symmetric: tuple[float, float]) -> Verdict:
+    """Return the verdict on an abscissa and on that of symmetric disturbances, with errors.
+
+    Neutral where the error of the abscissa exceeds its size.
+    """
+    value, error = abscissa
+    if abs(value) <= error:
+        return "neutral"
+    if value < 0:
+        return "stable"
+    return "stable_symmetric_only" if symmetric[0] < -symmetric[1] else "unstable"
 
 
 @checked
