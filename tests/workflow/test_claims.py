@@ -20,7 +20,9 @@ from hopper_workflow.claims.finding import (
     below,
     counted,
     limited,
+    rounded_up,
     rounds,
+    upper_bound,
 )
 from hopper_workflow.claims.ledger import COLUMNS, JUDGES, judge
 from hopper_workflow.claims.results import parameters
@@ -124,6 +126,20 @@ def test_rounding_is_a_bound_that_does_not_depend_on_the_machine(kernel):
     assert figure(f"{4.44089e-16 * kernel:.10g}", "1.0e-14", "1e-10") == "< 1e-10"
     assert figure("0", f"{3e-13 * kernel:.1e}", "1e-12") == "< 1e-12"
     assert figure("0.0212284", f"{1e-13 * kernel:.1e}", "0.025") == "0.0212284"
+
+
+@pytest.mark.parametrize("error", [5.04e-10, 9.96e-3, 1.0, 0.1, 1e-320, 2.5e-7])
+def test_an_error_in_two_digits_still_covers(error):
+    assert error <= float(rounded_up(error)) <= 1.1 * error + 5e-324
+
+
+def test_what_rounding_leaves_has_no_digits_of_its_own():
+    assert upper_bound(4e-16, 1e-10) == "< 1e-10"
+    assert upper_bound(2.9e-9, 1e-9) == upper_bound(3.0e-9, 1e-9) == "< 1e-08"
+    residual = 5.04e-10
+    assert figure(f"{residual:.10g}", rounded_up(residual), "1e-07") == "< 1e-07"
+    for share in (0.0, 4 / 399):
+        assert figure(f"{share:.10g}", rounded_up(max(share, 1 / 399)), "0.05") == "< 0.05"
 
 
 def test_figures_and_cells():

@@ -2,11 +2,14 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from decimal import ROUND_UP, Context
+from math import ceil, log10
 from typing import Literal, get_args
 
 Verdict = Literal["holds", "holds with limits", "does not hold", "cannot be decided"]
 VERDICTS: tuple[Verdict, ...] = get_args(Verdict)
 HOLDS, LIMITED, FAILS, UNDECIDED = VERDICTS
+_TWO_DIGITS = Context(prec=2, rounding=ROUND_UP)
 
 
 class UndecidedError(Exception):
@@ -48,11 +51,16 @@ def rounding(value: float) -> float:
 
 
 def upper_bound(value: float, bound: float) -> str:
-    """Return ``< 1e-10`` for what lies below the bound it is judged by, as rounding should.
+    """Return ``< 1e-10`` for what rounding leaves: the bound it is judged by.
 
-    Its size differs from machine to machine, so that a bound of its own would.
+    The next power of ten where it lies above that: its digits differ from machine to machine.
     """
-    return f"< {bound:g}" if value < bound else f"{value:.1e}"
+    return f"< {bound if value < bound else 10.0 ** ceil(log10(value)):g}"
+
+
+def rounded_up(error: float) -> str:
+    """Return an error with two digits that still covers."""
+    return f"{float(_TWO_DIGITS.create_decimal_from_float(error)):.1e}" if error else "0"
 
 
 def rounds(printed: Printed, computed: float, error: float, remark: str) -> Finding:

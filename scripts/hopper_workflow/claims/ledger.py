@@ -17,7 +17,14 @@ from hopper_workflow.claims import (
     section_4_spectrum,
     section_4_transient,
 )
-from hopper_workflow.claims.finding import UNDECIDED, Finding, Judge, Printed, UndecidedError
+from hopper_workflow.claims.finding import (
+    UNDECIDED,
+    Finding,
+    Judge,
+    Printed,
+    UndecidedError,
+    rounded_up,
+)
 from hopper_workflow.claims.results import parameters
 from hopper_workflow.claims.words import Claim
 
@@ -103,7 +110,7 @@ def _row(number: int, claim: Claim, finding: Finding) -> dict[str, str]:
         claim.claim,
         claim.paper,
         f"{finding.computed:.10g}" if known else "none",
-        f"{finding.error:.1e}".replace("0.0e+00", "0") if known else "none",
+        rounded_up(finding.error) if known else "none",
         claim.bound,
         claim.unit,
         claim.test_in_full,

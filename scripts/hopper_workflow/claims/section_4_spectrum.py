@@ -167,8 +167,10 @@ def first_derivative_is_sensitive(linear: xr.Dataset, *, extraordinary: float) -
 
 def first_derivative_has_no_eigenvalues(linear: xr.Dataset, *, few: float) -> Finding:
     agreeing, size = number(linear, "derivative_agreeing"), number(linear, "derivative_size")
-    remark = f"{agreeing:g} of {size:g} agree, as neighbours may."
-    return below(agreeing / size, few, 0.0, remark)
+    share = agreeing / size
+    verdict = below(share, few, 0.0, "").verdict
+    # Rounding decides which neighbours agree by chance: no digit of the share is known.
+    return Finding(share, max(share, 1 / size), verdict, f"Of {size:g}; as neighbours may.")
 
 
 def like_a_second_order_operator(
