@@ -59,7 +59,9 @@ def test_the_published_example_of_the_classical_limit():
     assert degrees(arnold(radians(38), radians(14))) == pytest.approx(35.52, abs=0.005)
 
 
-@pytest.mark.parametrize(("delta", "phi"), [(38, 14), (40, 16), (32, 5), (25, 20)])
+@pytest.mark.parametrize(
+    ("delta", "phi"), [(38, 14), (40, 16), (32, 5), pytest.param(25, 20, marks=pytest.mark.soak)]
+)
 def test_limit_of_friction_is_that_of_the_hopper_as_wide(delta, phi):
     """The other way round: at that half angle the largest wall friction is the wall's."""
     found = known(angles_of("cone", delta, phi).limit)

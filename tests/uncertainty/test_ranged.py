@@ -62,7 +62,14 @@ NUMBERS = {
 }
 
 
-@pytest.mark.parametrize("of", [CONE, WEDGE, PART], ids=["cone", "wedge", "part"])
+@pytest.mark.parametrize(
+    "of",
+    [
+        pytest.param(CONE, id="cone"),
+        pytest.param(WEDGE, id="wedge", marks=pytest.mark.soak),
+        pytest.param(PART, id="part", marks=pytest.mark.soak),
+    ],
+)
 def test_radial_numbers_hold_a_fine_grid_and_are_attained(of):
     found = radial_over(of)
     grid = [one for one in solutions(of, 13) if one]

@@ -118,6 +118,7 @@ def mounted(folder, *options):
         subprocess.run(["umount", "-l", str(folder)], check=True)
 
 
+@pytest.mark.soak
 @AS_ROOT
 def test_disk_full(built, fresh):
     disk = fresh.path / "results"

@@ -30,7 +30,7 @@ from tests.workflow.mutations import KINDS, WHOLE, Mutation
 
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
 EACH = 45  # files of each kind
-RUN = 5  # by the command, whole files and changed ones each
+RUN = 3  # by the command, whole files and changed ones each
 LIMIT = 1.4  # of a dry run's processor time, over that of the configuration as it is
 BUILT = 3  # of those that are accepted, in the short version
 ONE_LINE = re.compile(
@@ -155,7 +155,7 @@ def try_with_command(workflow: Workflow, tried: list[Mutation]) -> tuple[Counter
 
 
 @pytest.mark.workflow
-@pytest.mark.parametrize("step", [5, pytest.param(1, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("step", [10, pytest.param(1, marks=pytest.mark.soak)])
 def test_a_mutated_configuration_builds_a_dag_or_ends_in_one_line(fresh, monkeypatch, step):
     every = examples()
     assert len(every) >= 500
