@@ -136,6 +136,7 @@ def test_an_error_in_two_digits_still_covers(error):
 def test_what_rounding_leaves_has_no_digits_of_its_own():
     assert upper_bound(4e-16, 1e-10) == "< 1e-10"
     assert upper_bound(2.9e-9, 1e-9) == upper_bound(3.0e-9, 1e-9) == "< 1e-08"
+    assert upper_bound(float("nan"), 1e-9) == "nan"
     residual = 5.04e-10
     assert figure(f"{residual:.10g}", rounded_up(residual), "1e-07") == "< 1e-07"
     for share in (0.0, 4 / 399):

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from decimal import ROUND_UP, Context
-from math import ceil, log10
+from math import ceil, isfinite, log10
 from typing import Literal, get_args
 
 Verdict = Literal["holds", "holds with limits", "does not hold", "cannot be decided"]
@@ -55,6 +55,8 @@ def upper_bound(value: float, bound: float) -> str:
 
     The next power of ten where it lies above that: its digits differ from machine to machine.
     """
+    if not isfinite(value):
+        return f"{value:g}"
     return f"< {bound if value < bound else 10.0 ** ceil(log10(value)):g}"
 
 
