@@ -6,6 +6,7 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+import xarray as xr
 import yaml
 
 from hopper_workflow import reading
@@ -135,12 +136,21 @@ def test_an_error_in_two_digits_still_covers(error):
 
 def test_what_rounding_leaves_has_no_digits_of_its_own():
     assert upper_bound(4e-16, 1e-10) == "< 1e-10"
-    assert upper_bound(2.9e-9, 1e-9) == upper_bound(3.0e-9, 1e-9) == "< 1e-08"
-    assert upper_bound(float("nan"), 1e-9) == "nan"
+    for modulus in (2.9e-9, 3.0e-9):
+        folds = {"modulus": modulus, "modulus_error": 8e-8, "before": 1, "behind": 0}
+        data = xr.Dataset({f"fold_{name}": ("fold", [value]) for name, value in folds.items()})
+        found = JUDGES["folds_are_neutral"](data, zero=1e-9)
+        assert found.verdict == HOLDS
+        assert "Largest |lambda| < 1e-08;" in found.remark
     residual = 5.04e-10
     assert figure(f"{residual:.10g}", rounded_up(residual), "1e-07") == "< 1e-07"
     for share in (0.0, 4 / 399):
         assert figure(f"{share:.10g}", rounded_up(max(share, 1 / 399)), "0.05") == "< 0.05"
+
+
+def test_what_exceeds_its_bound_is_told():
+    assert upper_bound(0.032, 1e-10) == "3.2e-02"
+    assert upper_bound(float("nan"), 1e-10) == "nan"
 
 
 def test_figures_and_cells():

@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from decimal import ROUND_UP, Context
-from math import ceil, isfinite, log10
 from typing import Literal, get_args
 
 Verdict = Literal["holds", "holds with limits", "does not hold", "cannot be decided"]
@@ -51,13 +50,11 @@ def rounding(value: float) -> float:
 
 
 def upper_bound(value: float, bound: float) -> str:
-    """Return ``< 1e-10`` for what rounding leaves: the bound it is judged by.
+    """Return ``< 1e-10`` for what lies below the bound it is judged by, as rounding should.
 
-    The next power of ten where it lies above that: its digits differ from machine to machine.
+    Its size differs from machine to machine, so that a bound of its own would.
     """
-    if not isfinite(value):
-        return f"{value:g}"
-    return f"< {bound if value < bound else 10.0 ** ceil(log10(value)):g}"
+    return f"< {bound:g}" if value < bound else f"{value:.1e}"
 
 
 def rounded_up(error: float) -> str:
