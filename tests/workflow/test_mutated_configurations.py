@@ -30,7 +30,7 @@ from tests.workflow.mutations import KINDS, WHOLE, Mutation
 
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
 EACH = 45  # files of each kind
-RUN = 3  # by the command, whole files and changed ones each
+RUN = 5  # by the command, whole files and changed ones each
 LIMIT = 1.4  # of a dry run's processor time, over that of the configuration as it is
 BUILT = 3  # of those that are accepted, in the short version
 ONE_LINE = re.compile(
