@@ -225,7 +225,8 @@ def test_times_of_any_shape():
     times = np.array([[0.0, 0.5, 1.0], [1.5, 2.0, 2.5]])
     found = propagator_norm(bases, times)
     assert found.shape == times.shape
-    assert found[1, 0] == propagator_norm(bases, 1.5)
+    alone, kappa = propagator_norm(bases, 1.5), condition_number(bases)
+    assert abs(found[1, 0] / alone - 1) <= rounding(kappa, matrix_norm("wedge", 32), 1.5)
     assert propagator_norm(bases, 1.5).shape == ()
     assert propagator_norm(bases, []).shape == (0,)
 

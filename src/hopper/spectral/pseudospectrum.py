@@ -22,10 +22,10 @@ from hopper.arguments import Fraction, RealLike, checked
 from hopper.arrays import Array, Complex
 from hopper.brief import brief
 from hopper.errors import InvalidParameterError
-from hopper.spectral.lanczos import Progress, unit_sigma_min
 from hopper.spectral.sampling import closing_in
 from hopper.spectral.scaling import represented, times_power
 from hopper.spectral.schur import SchurForm
+from hopper.spectral.shifted import Progress, unit_sigma_min
 from hopper.values import finite_number
 
 # |z| over the norm of the matrix from where on sigma_min is |z| but for rounding.

@@ -26,10 +26,10 @@ from hopper.arguments import AnyFloat, checked
 from hopper.arrays import Array, Numbers
 from hopper.errors import ConvergenceError, InvalidParameterError
 from hopper.roots import root_between
-from hopper.spectral.lanczos import unit_sigma_min
 from hopper.spectral.pseudospectrum import FAR
 from hopper.spectral.scaling import represented, times_power
 from hopper.spectral.schur import EPS, SchurForm
+from hopper.spectral.shifted import unit_sigma_min
 
 _STEPS = 60
 _TOLERANCE = 1e-10
