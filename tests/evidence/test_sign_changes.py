@@ -65,6 +65,20 @@ def test_a_kink_is_no_jump():
         assert not any(change.jump for change in sign_changes(function, PLACES, WIDTH))
 
 
+@pytest.mark.parametrize("bend", [4.1, 4.45, 5.6, 6.2])
+def test_a_bend_takes_few_evaluations(bend):
+    """It is told from a jump after a step or two, not at the width of a bracket."""
+    seen = []
+
+    def function(x):
+        seen.append(x)
+        return 5.05 - x - 0.3 * np.arctan(8 * (x - bend)) * (x - bend) + 0.1 * (x - bend) ** 2
+
+    (found,) = sign_changes(function, PLACES, WIDTH)
+    assert not found.jump
+    assert len(set(seen)) <= PLACES.size + 6 + 3 + 4
+
+
 def test_gaps_are_no_sign_changes():
     function = lambda x: nan if 4 < x < 6 else 5 - x  # noqa: E731
     assert sign_changes(function, PLACES, WIDTH) == []

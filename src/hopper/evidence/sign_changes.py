@@ -7,18 +7,19 @@ eigenvalue enters or leaves what two meshes agree on.
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from math import nan
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hopper.arguments import checked
+from hopper.arguments import RealLike, checked
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.errors import InvalidParameterError
 
 # A step that this times as much as its neighbours' slopes explain is a jump.
 _STEEP = 5
-# A step is no kink's, which lies between its neighbours, if it is this much off their mean.
+# A slope is no kink's, which lies between its neighbours, if it is this much off their mean.
 _UNLIKE = 1
 # Secant steps before a sign change is taken for a jump, and how far beyond the root they go, in
 # widths of a bracket.
@@ -98,11 +99,16 @@ def _crossed(values: Array) -> NDArray[np.bool_]:
 
 
 def _irregular(steps: Array) -> NDArray[np.bool_]:
-    """Return which steps of equal length are unlike both neighbours; these may differ by a kink."""
-    before, after = steps[:-2], steps[2:]
+    """Return which steps of equal length are unlike both neighbours."""
     found = np.zeros(steps.size, dtype=bool)
-    found[1:-1] = np.abs(steps[1:-1] - (before + after) / 2) > _UNLIKE * np.abs(before - after)
+    found[1:-1] = _unlike(steps[:-2], steps[1:-1], steps[2:])
     return found & (np.abs(steps) > 0)
+
+
+def _unlike(before: RealLike, slope: RealLike, after: RealLike) -> NDArray[np.bool_]:
+    """Return whether slopes are unlike those before and after; these may differ by a kink."""
+    before, after = np.asarray(before), np.asarray(after)
+    return np.abs(slope - (before + after) / 2) > _UNLIKE * np.abs(before - after)
 
 
 def _narrowed(
@@ -110,13 +116,13 @@ def _narrowed(
 ) -> Change:
     """Divide the interval from ``at`` to the next point down to a width, or to a gap."""
     slopes = np.diff(y) / np.diff(x)
-    beside = np.delete(slopes[max(at - 1, 0) : at + 2], min(at, 1))
-    beside = beside[np.isfinite(beside)]
-    slope = float(beside.mean()) if beside.size else 0.0
+    before, after = (float(slopes[i]) if 0 <= i < slopes.size else nan for i in (at - 1, at + 1))
     left, right, low, high = (float(one) for one in (x[at], x[at + 1], y[at], y[at + 1]))
     signs = (low > 0) != (high > 0)
     secants = _SECANTS if signs else 0
     while right - left > width:
+        if not signs and not _unlike(before, (high - low) / (right - left), after):
+            break  # a kink or a bend: a jump would stand out the more
         middle = (left + right) / 2
         if secants:
             root = left + (right - left) * low / (low - high)
@@ -126,14 +132,11 @@ def _narrowed(
         value = function(middle)
         if not np.isfinite(value):
             break
-        if signs:
-            first = (low > 0) != (value > 0)
+        first, second = (value - low) / (middle - left), (high - value) / (right - middle)
+        beside = (before + after) / 2
+        if (low > 0) != (value > 0) if signs else abs(first - beside) > abs(second - beside):
+            right, high, after = middle, value, second
         else:
-            rise = slope * (middle - left)
-            first = abs(value - low - rise) > abs(high - value - rise)
-        if first:
-            right, high = middle, value
-        else:
-            left, low = middle, value
-    steep = _STEEP * float(np.abs(beside).max(initial=0)) * (right - left)
+            left, low, before = middle, value, first
+    steep = _STEEP * float(np.nanmax(np.abs([before, after, 0.0]))) * (right - left)
     return Change((left + right) / 2, (right - left) / 2, low, high, abs(high - low) > steep)
