@@ -10,8 +10,12 @@ for line in configuration.bring_up_to_date(config, SCHEMA):
     logger.warning(line)
 
 FIGURES = [drawing.figure for drawing in entries.drawings(config)]
-# Those of the paper have its numbers; fig_4_5_map, which it has not, costs as much as all of them.
-PAPER = [one for one in FIGURES if re.match(r"fig_(\d_\d(?!_map)|pseudospectrum)", one)]
+# The paper's, each once, and what is needed to read them; others of its kinds are variations.
+PAPER = [
+    one
+    for one in FIGURES
+    if re.fullmatch(r"fig_(\d_\d|4_2_physical|4_3_norms|pseudospectrum)", one)
+]
 MAP = config["stability_map"]
 VON_MISES = config["von_mises"]
 FORMULATIONS = ["paper", "physical"]
