@@ -20,9 +20,10 @@ from hopper.domain.neutral_curve import NeutralCurve
 from hopper.errors import NoRadialSolutionError
 from hopper.problem import Geometry, Hopper
 from hopper.radial.collocation import Closure, Member, largest_psi
-from hopper.radial.family import family, neighbour, smooth_wall_member
+from hopper.radial.family import neighbour, smooth_wall_member
 from hopper.radial.friction_limit import friction_limit
 from hopper.radial.members import member_with_tau
+from hopper.radial.pieces import physical_branch
 from hopper.roots import root_between
 from hopper.stability.tilted import require_mohr_coulomb, tangency_angle
 
@@ -44,7 +45,7 @@ def friction_reaching(hopper: Hopper, psi: float) -> float | None:
     """
     below: Member | None = None
     try:
-        for member in family(hopper):
+        for member in physical_branch(hopper):
             # The nodes miss the largest psi by far less than this margin.
             if member.psi.max() >= 0.9 * psi and largest_psi(member) >= psi:
                 return _friction_between(below, member, psi) if below else None

@@ -8,6 +8,7 @@ extremum psi_w determines a solution badly and tau does well: there tau is what 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cache, lru_cache
+from itertools import islice
 from math import degrees, exp, log
 from typing import Literal
 
@@ -17,7 +18,7 @@ from hopper.errors import ConvergenceError
 from hopper.problem import Hopper
 from hopper.radial.collocation import Closure, Member, newton, predicted
 from hopper.radial.critical_point import cut, limiting_solution
-from hopper.radial.family import WALL_MARGIN, family_from, neighbour, smooth_wall_member
+from hopper.radial.family import WALL_MARGIN, family, family_from, neighbour, smooth_wall_member
 from hopper.radial.grid import mapped_grid
 from hopper.radial.mass_flow import limiting_wall_angle
 from hopper.radial.refinement import fitted
@@ -99,6 +100,24 @@ def first_piece(hopper: Hopper) -> Piece:
         If its end is not resolved.
     """
     return next(pieces_from(smooth_wall_member(hopper)))
+
+
+@checked
+def physical_branch(hopper: Hopper) -> Iterator[Member]:
+    """Yield members of the physical branch in order of tau, a fold last; as :func:`first_piece`.
+
+    Where its end is not resolved, members up to there.
+    """
+    try:
+        piece = first_piece(hopper)
+    except ConvergenceError:
+        yield from family(hopper)
+        return
+    yield from piece.members
+    if piece.end.member:
+        yield piece.end.member
+    elif piece.end.end == "axis":  # a piece ends when nothing more happens, the family later
+        yield from islice(family_from(piece.members[-1]), 1, None)
 
 
 @checked
