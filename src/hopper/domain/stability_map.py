@@ -17,6 +17,7 @@ from hopper.radial.solution import solution_of
 from hopper.stability.collocation import PARITIES, Parity
 from hopper.stability.modes import (
     GOVERNORS,
+    OTHERS,
     Disturbances,
     Governor,
     LinearStability,
@@ -36,8 +37,8 @@ REGIONS = (
 GOVERNED_BY = ("none", *GOVERNORS)
 PARITY = ("none", *PARITIES)
 _STABLE, _SYMMETRIC, _UNSTABLE, _NO_SOLUTION, _NO_WALL, _NON_POSITIVE, _NOT_CONVERGED = range(7)
-# Relative errors of the governing mode, and of the others, which must only be seen to lie below.
-_TOLERANCE, _OTHERS = 1e-9, 1e-5
+# Relative error of the governing mode.
+_TOLERANCE = 1e-9
 # Errors of the radial fields that leave that.
 _FIELDS = 1e-11
 
@@ -113,7 +114,7 @@ def sweep_friction(
     members, region[allowed] = _members(hopper, angles[allowed])
     solved = {i: solution_of(m) for i, m in zip(allowed, members, strict=True) if m and m.tau > 0}
     results = linear_stabilities(
-        list(solved.values()), disturbances, tolerance=_TOLERANCE, others=_OTHERS
+        list(solved.values()), disturbances, tolerance=_TOLERANCE, others=OTHERS
     )
     for (i, solution), result in zip(solved.items(), results, strict=True):
         if isinstance(result, ConvergenceError):

@@ -16,7 +16,7 @@ from hopper.arguments import Row, checked
 from hopper.arrays import Array
 from hopper.brief import brief
 from hopper.problem import Hopper
-from hopper.radial.collocation import Closure, Member, moved
+from hopper.radial.collocation import FAR, Closure, Member, moved
 from hopper.radial.family import family_from, smooth_wall_member
 from hopper.radial.friction_limit import fold_on
 from hopper.radial.grid import Grid, half_grid, layer_clustering
@@ -154,6 +154,7 @@ def _resolved(
     Rows of members that are not resolved, or have better grids, are left out.
     """
     coarse, *finer = (half_grid(size, hopper.half_angle, layer) for size in _SIZES)
+    far = hopper.material.singular_angle(hopper.delta) - FAR
     found = _newton(hopper, coarse, u, range(len(u)), _CRUDE_STEP)
     observed: dict[int, list[tuple[int, float]]] = {row: [] for row in found}
     for grid in finer:
@@ -167,7 +168,8 @@ def _resolved(
             if error < tolerance:
                 del found[row]
                 sure = replace(member, error=error + rounding_of_closure(member))
-                if grid_for(sure, grid.size, layer) is grid:
+                # Far from singular no other grid is better; it is most of the members.
+                if sure.psi.max() < far or grid_for(sure, grid.size, layer) is grid:
                     yield row, sure
         coarse = grid
 

@@ -17,9 +17,10 @@ from hopper.stability.asymptotic_line import AsymptoticLine
 from hopper.stability.collocation import Parity, tilted_matrix
 
 # Half-grid points.
-_SIZES = (12, 16, 22, 36, 54, 80, 120)
-# Half-grid points of a cone's radial solution from which on the first mesh is too coarse.
-_LAYERED = 36
+_SIZES = (9, 12, 16, 22, 36, 54, 80, 120)
+# Half-grid points of radial solutions of wedges and of cones from which on one more of the first
+# meshes is too coarse, and the error of modes below which the first of all is.
+_TOO_COARSE, _LOOSE = {0: (36,), 1: (24, 36)}, 1e-7
 LEAST_MODES = 3
 # Estimates of a mode's error are orders of magnitude: that by two meshes guesses the rate of
 # convergence (one of 748 random sets of modes exceeded a hundred times the guess).
@@ -54,10 +55,14 @@ class Modes:
 
 
 @checked
-def mesh_sizes(solution: RadialSolution) -> tuple[int, ...]:
-    """Return the meshes to use: a layer in a cone asks the same of solution and modes."""
-    layered = solution.hopper.curvature and solution.member.grid.size >= _LAYERED
-    return _SIZES[1:] if layered else _SIZES
+def mesh_sizes(solution: RadialSolution, others: Positive) -> tuple[int, ...]:
+    """Return the meshes to use: what asks for points in a solution does so in its modes.
+
+    ``others`` as in :func:`low_modes`.
+    """
+    limits = _TOO_COARSE[solution.hopper.curvature]
+    skipped = sum(solution.member.grid.size >= limit for limit in limits)
+    return _SIZES[max(skipped, others < _LOOSE) :]
 
 
 @checked
@@ -101,7 +106,7 @@ def low_modes(
         return []
     rows: NDArray[np.intp] = np.arange(len(solutions))
     _require_rows(rows.shape, start, lines)
-    sizes, spectra = mesh_sizes(solutions[0]), [_rows_of_upper(values) for values in start]
+    sizes, spectra = mesh_sizes(solutions[0], others), [_rows_of_upper(values) for values in start]
     found: list[Modes | None] = [None] * len(solutions)
     coarse, of_fields = spectra[0], np.array([solution.member.error for solution in solutions])
     for index, (previous, size) in enumerate(pairwise(sizes), 1):

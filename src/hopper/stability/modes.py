@@ -40,6 +40,8 @@ Verdict = Literal["stable", "stable_symmetric_only", "unstable", "neutral"]
 # Meshes on which many solutions are computed together.
 _TOGETHER = 2
 _TOLERANCE = 1e-10
+# Relative error of modes that do not govern, where they must only be seen to lie below.
+OTHERS = 1e-5
 # Of the tolerance, what the quadrature of the line may take.
 _LINE_PART = 0.1
 
@@ -178,10 +180,10 @@ def linear_stabilities(
     parities = parities_among(disturbances, solutions[0].hopper.geometry)
     found: dict[int, LinearStability | ConvergenceError] = {}
     groups: dict[tuple[float, tuple[int, ...]], list[int]] = {}
+    wanted = max(count, LEAST_MODES), tolerance, others or tolerance
     for i, solution in enumerate(solutions):
         layer = layer_clustering(solution.hopper, solution.member.tau)
-        groups.setdefault((layer, mesh_sizes(solution)), []).append(i)
-    wanted = max(count, LEAST_MODES), tolerance, others or tolerance
+        groups.setdefault((layer, mesh_sizes(solution, wanted[-1])), []).append(i)
     for (_, sizes), group in groups.items():
         coarse, spectra = _first_meshes([solutions[i] for i in group], parities, sizes[:_TOGETHER])
         lines: dict[int, AsymptoticLine] = {}

@@ -18,13 +18,13 @@ from hopper.radial.collocation import Member, largest_psi
 from hopper.radial.mass_flow import LEAST_DELTA
 from hopper.radial.members import physical_member
 from hopper.radial.solution import RadialSolution
-from hopper.stability.modes import Disturbances, LinearStability, linear_stability
+from hopper.stability.modes import OTHERS, Disturbances, LinearStability, linear_stability
 from hopper.uncertainty.box import Box
 from hopper.uncertainty.friction_limits import FrictionLimits
 
 _Found = TypeVar("_Found")
-# Relative errors of the governing mode, and of the others.
-_TOLERANCE, _OTHERS = 1e-9, 1e-5
+# Relative error of the governing mode.
+_TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -173,7 +173,7 @@ class BoxedHoppers:
             return solution
         try:
             return linear_stability(
-                solution, self.disturbances, tolerance=_TOLERANCE, others=_OTHERS
+                solution, self.disturbances, tolerance=_TOLERANCE, others=OTHERS
             )
         except ConvergenceError:
             return "not_converged"
