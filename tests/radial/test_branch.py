@@ -58,8 +58,7 @@ def test_fold_of_the_branch_excludes_what_lies_beyond(case):
     assert limit.end == "fold"
     assert branch.fold
     assert abs(branch.fold - limit.psi_wall) < 1e-7
-    assert branch.ends_before(limit.psi_wall + 2e-6)
-    assert not branch.ends_before(limit.psi_wall)
+    assert limit.psi_wall < branch.reach < limit.psi_wall + 2e-6
     inside = limit.psi_wall - np.array([1e-3, 1e-5, 1e-7])
     for psi_wall, member in zip(inside, members_on(branch, inside), strict=True):
         if member is not None:

@@ -38,7 +38,7 @@ GOVERNED_BY = ("none", *GOVERNORS)
 PARITY = ("none", *PARITIES)
 _STABLE, _SYMMETRIC, _UNSTABLE, _NO_SOLUTION, _NO_WALL, _NON_POSITIVE, _NOT_CONVERGED = range(7)
 # Relative error of the governing mode.
-_TOLERANCE = 1e-9
+_TOLERANCE = 5e-10
 # Errors of the radial fields that leave that.
 _FIELDS = 1e-11
 
@@ -135,9 +135,7 @@ def _members(hopper: Hopper, angles: Array) -> tuple[list[Member | None], NDArra
         return [None] * angles.size, region
     members = members_on(branch, psi_walls, _FIELDS)
     last: Member | None = None
-    for i, angle in enumerate(angles):
-        if branch.ends_before(float(psi_walls[i])):
-            break
+    for i, angle in enumerate(angles[psi_walls <= branch.reach]):
         region[i] = _NOT_CONVERGED
         try:
             members[i] = member = members[i] or physical_member(hopper, float(angle), last)

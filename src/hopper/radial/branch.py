@@ -5,9 +5,10 @@ once. A coarse walk along the family starts them; what is not resolved this way 
 :func:`hopper.radial.members.physical_member`.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,10 +58,10 @@ class Branch:
 
     __repr__ = brief("fold deg")
 
-    @checked
-    def ends_before(self, psi_wall: float) -> bool:
-        """Whether the fold excludes a member with that psi_w (radians)."""
-        return self.fold is not None and psi_wall > self.fold + _FOLD_MARGIN
+    @property
+    def reach(self) -> float:
+        """The psi_w (radians) beyond which the fold excludes members; inf without a fold."""
+        return inf if self.fold is None else self.fold + _FOLD_MARGIN
 
 
 @checked
@@ -155,36 +156,48 @@ def _resolved(
     """
     coarse, *finer = (half_grid(size, hopper.half_angle, layer) for size in _SIZES)
     far = hopper.material.singular_angle(hopper.delta) - FAR
-    found = _newton(hopper, coarse, u, range(len(u)), _CRUDE_STEP)
-    observed: dict[int, list[tuple[int, float]]] = {row: [] for row in found}
+    found = _newton(hopper, coarse, u, _CRUDE_STEP)
+    rows, u = found.rows, found.u
+    observed: dict[int, list[tuple[int, float]]] = {row: [] for row in rows.tolist()}
     for grid in finer:
-        if not found:
+        if not rows.size:
             return
-        u = moved(np.array([member.u for member, _ in found.values()]), coarse, grid)
-        found = _newton(hopper, grid, u, found)
-        for row, (member, least) in list(found.items()):
-            observed[row].append((coarse.size, member.error))
-            error = min(member.error, extrapolated(observed[row], grid)) + least
+        found = _newton(hopper, grid, moved(u, coarse, grid), _LAST_STEP)
+        rows, going_on = rows[found.rows], np.ones(found.rows.size, dtype=bool)
+        for i, row in enumerate(rows.tolist()):
+            first, least = float(found.first[i]), float(found.least[i])
+            observed[row].append((coarse.size, first))
+            error = min(first, extrapolated(observed[row], grid)) + least
             if error < tolerance:
-                del found[row]
-                sure = replace(member, error=error + rounding_of_closure(member))
+                going_on[i] = False
+                closure = Closure("psi_wall", float(found.u[i, -2]))
+                known = hopper, grid, closure, found.u[i], found.tangents[i]
+                member = Member(*known, error + rounding_of_closure(Member(*known, error)))
                 # Far from singular no other grid is better; it is most of the members.
-                if sure.psi.max() < far or grid_for(sure, grid.size, layer) is grid:
-                    yield row, sure
-        coarse = grid
+                if member.psi.max() < far or grid_for(member, grid.size, layer) is grid:
+                    yield row, member
+        rows, u, coarse = rows[going_on], found.u[going_on], grid
 
 
-def _newton(
-    hopper: Hopper, grid: Grid, u: Array, rows: Iterable[int], last_step: float = _LAST_STEP
-) -> dict[int, tuple[Member, float]]:
-    """Return the members that Newton's iteration finds, each with its rounding, by their rows.
+@dataclass(frozen=True)
+class _Found:
+    """The ``rows`` of a stack that Newton's iteration solves, and of each the result.
 
-    psi_w is held. A member's ``error`` is the first step, as that of
-    :func:`hopper.radial.collocation.newton`.
+    ``first`` is the size of the first step, ``least`` what rounding leaves.
     """
-    names, psi_walls = np.fromiter(rows, int), u[:, -2].copy()
-    active, first = np.arange(len(u)), np.zeros(len(u))
-    found = {}
+
+    rows: _Rows
+    u: Array
+    tangents: Array
+    first: Array
+    least: Array
+
+
+def _newton(hopper: Hopper, grid: Grid, u: Array, last_step: float) -> _Found:
+    """Solve on one grid as :func:`hopper.radial.collocation.newton`, from ``u``; psi_w is held."""
+    u, psi_walls = u.copy(), u[:, -2].copy()
+    tangents, first, least = np.empty(u.shape), np.zeros(len(u)), np.empty(len(u))
+    active, solved_rows = np.arange(len(u)), np.zeros(len(u), dtype=bool)
     for iteration in range(_NEWTON_STEPS):
         residual, jacobian = closed_system(hopper, grid, "psi_wall", u[active])
         right = np.zeros((*residual.shape, 2))
@@ -199,14 +212,13 @@ def _newton(
         u[active, -2] = psi_walls[active]
         if iteration == 0:
             first[active] = size
-        least = rounding_of_unknowns(solved[..., 2:], u[active])
-        for i in np.flatnonzero(size < last_step):
-            row = active[i]
-            closure = Closure("psi_wall", float(psi_walls[row]))
-            member = Member(hopper, grid, closure, u[row], solved[i, :, 1], float(first[row]))
-            found[int(names[row])] = member, float(least[i])
+        done = size < last_step
+        tangents[active[done]] = solved[done, :, 1]
+        least[active[done]] = rounding_of_unknowns(solved[done, :, 2:], u[active[done]])
+        solved_rows[active[done]] = True
         # Steps that are larger lead astray, and to overflow.
-        active = active[(size >= last_step) & (size < _LARGEST_STEP)]
+        active = active[~done & (size < _LARGEST_STEP)]
         if not active.size:
             break
-    return dict(sorted(found.items()))
+    (rows,) = np.nonzero(solved_rows)
+    return _Found(rows, u[rows], tangents[rows], first[rows], least[rows])

@@ -180,14 +180,13 @@ def top_of(psi: Row) -> float:
 
     The Chebyshev point of such an angle is its cosine.
     """
-    coefficients, angles, samples = _psi_samples(psi.size)
+    coefficients, angles, samples, bend_at_wall = _psi_samples(psi.size)
     top = int((samples @ psi).argmax())
-    series = coefficients @ psi
-    odd = _degrees(series.size)
+    if not top and bend_at_wall @ psi >= 0:
+        return 0.0
+    series, odd = coefficients @ psi, _degrees(psi.size)
     angle, step = float(angles[top]), angles[1]
     if not top:
-        if odd * odd @ series >= 0:
-            return 0.0
         angle = step / 2  # psi falls towards the wall, from a maximum before it
     # Newton's iteration for the slope of the series of cos(odd * angle).
     for _ in range(_TO_MAXIMUM):
@@ -211,15 +210,17 @@ def _degrees(size: int) -> Array:
 
 
 @lru_cache(maxsize=64)
-def _psi_samples(size: int) -> tuple[Array, Array, Array]:
-    """Return matrices from psi to its coefficients and to values at angles, and the angles.
+def _psi_samples(size: int) -> tuple[Array, Array, Array, Array]:
+    """Return the matrix from psi to its coefficients, angles, and that to values at them.
 
-    The Chebyshev point of an angle is its cosine: 0 is the wall, pi/2 the axis.
+    And the row to minus its second derivative by the angle, at the wall. The Chebyshev point of an
+    angle is its cosine: 0 is the wall, pi/2 the axis.
     """
     coefficients = chebyshev.last_half_coefficients(size, "odd", size)
     angles = np.linspace(0, np.pi / 2, 4 * size)
-    values = np.cos(np.outer(angles, _degrees(size))) @ coefficients
-    return coefficients, angles, values
+    odd = _degrees(size)
+    values = np.cos(np.outer(angles, odd)) @ coefficients
+    return coefficients, angles, values, odd**2 @ coefficients
 
 
 @checked

@@ -1,5 +1,6 @@
 """Converged low modes of one parity in tilted time, of several solutions of one hopper at once."""
 
+from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -61,7 +62,7 @@ def mesh_sizes(solution: RadialSolution, others: Positive) -> tuple[int, ...]:
     ``others`` as in :func:`low_modes`.
     """
     limits = _TOO_COARSE[solution.hopper.curvature]
-    skipped = sum(solution.member.grid.size >= limit for limit in limits)
+    skipped = bisect_right(limits, solution.member.grid.size)
     return _SIZES[max(skipped, others < _LOOSE) :]
 
 
