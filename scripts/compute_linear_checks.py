@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from hopper_workflow import artifacts, jobs, ranges, reading
+from hopper_workflow import artifacts, jobs, ranges
 from hopper.evidence import first_derivative, smooth_operator
 from hopper.evidence.folds import FoldMode, fold_mode
 from hopper.evidence.printed import compare_linearised
@@ -119,11 +119,11 @@ def _oscillation(
     """Return amplitudes and their errors over geometry, formulation and start."""
     table = np.empty((len(spectra), len(norms), len(windows["starts"]), 2))
     for i, (geometry, path) in enumerate(zip(_GEOMETRIES, spectra, strict=True)):
-        solution, spectrum = solution_of(geometry, *case), reading.read(path)
+        solution, spectrum = solution_of(geometry, *case), by_half(path)
         for j, (formulation, norm) in enumerate(norms.items()):
             bases = [
                 modal_basis(solution, nodes, half, kept, **norm)
-                for half, kept in by_half(spectrum, formulation).items()
+                for half, kept in spectrum[formulation].items()
             ]
             table[i, j] = [
                 oscillation(bases, start, windows["length"], windows["points"])

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from hopper_workflow import artifacts, jobs, ranges, reading
+from hopper_workflow import artifacts, columns, jobs, ranges
 from hopper.errors import HopperError
 from hopper.evidence.sign_changes import sign_changes
 from hopper.problem import Hopper
@@ -32,7 +32,7 @@ def compute_paper_border(
 
     That is where the neutral curve of ``border`` ends on the fold of the radial solutions.
     """
-    corner = float(reading.read(border).neutral_phi[-1])
+    corner = float(columns.read(border, ["neutral_phi"])["neutral_phi"][-1])
 
     def abscissa(delta: float, phi: float) -> float:
         try:

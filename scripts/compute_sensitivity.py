@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from hopper_workflow import artifacts, jobs, kept_modes, reading
+from hopper_workflow import artifacts, jobs, kept_modes
 from hopper.spectral.schur import schur_form
 from hopper.spectral.sensitivity import (
     kept_condition_numbers,
@@ -36,7 +36,7 @@ def compute_sensitivity(
 ) -> CfDataset:
     """Measure the non-normality of M on the kept modes and of the full matrix."""
     solution = solution_of(**hopper)
-    kept = kept_modes.by_half(reading.read(spectrum), formulation)
+    kept = kept_modes.by_half(spectrum)[formulation]
     weight = half_weights(solution.hopper, nodes // 2, norm)
     forms = {
         half: schur_form(half_matrix(solution, nodes // 2, half, psi_scale), weight)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from hopper_workflow import artifacts, jobs, kept_modes, reading
+from hopper_workflow import artifacts, jobs, kept_modes
 from hopper.spectral.transient import abscissa, condition_number, growth_curve
 from hopper.stability.transient import NORMS, Norm, modal_basis
 from hopper_data.contents import CfDataset
@@ -31,12 +31,12 @@ def compute_transient(
     ``elapsed.points`` is the least number of times; each curve has as many as it needs, and is
     missing at those that others need.
     """
-    data, solution = reading.read(spectrum), solution_of(**hopper)
+    kept, solution = kept_modes.by_half(spectrum), solution_of(**hopper)
     choices = list(product(kept_in, norms, psi_scales))
     cases = [
         [
-            modal_basis(solution, nodes, half, kept, norm, scale)
-            for half, kept in kept_modes.by_half(data, formulation).items()
+            modal_basis(solution, nodes, half, values, norm, scale)
+            for half, values in kept[formulation].items()
         ]
         for formulation, norm, scale in choices
     ]

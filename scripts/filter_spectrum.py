@@ -3,12 +3,12 @@
 import logging
 from typing import Any
 
-from hopper_workflow import artifacts, jobs, reading
+from hopper_workflow import artifacts, columns, jobs
 from hopper.spectral.matching import unbroken_run
 from hopper.stability.convergence_filter import convergence_filter
 from hopper_data.contents import CfDataset
 from hopper_data.datasets import dataset
-from hopper_data.stability import FILTERED_SPECTRUM, read_mesh_spectrum
+from hopper_data.stability import FILTERED_SPECTRUM, MESH_COLUMNS, read_mesh_spectrum
 from hopper_data.tables import number, within
 
 
@@ -32,7 +32,7 @@ def filter_spectrum(
         "mu": mu,
     }
     on_fine, on_coarse = (
-        read_mesh_spectrum(reading.read(path, {**hopper, "nodes": n}, stored=True), n)
+        read_mesh_spectrum(columns.read(path, MESH_COLUMNS, {**hopper, "nodes": n}), n)
         for path, n in ((fine, nodes), (coarse, coarse_nodes))
     )
     filtered = convergence_filter(on_fine, on_coarse, tolerance)

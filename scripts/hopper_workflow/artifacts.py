@@ -125,3 +125,20 @@ def verify(path: str | Path) -> None:
             f"artifact {path} is damaged or foreign: its checksum is not that of "
             f"{provenance.name}; {remedy}"
         )
+
+
+def require_parameters(
+    path: str | Path, attributes: Mapping[str, Any], parameters: Mapping[str, Any] | None
+) -> None:
+    """Check that an artifact with these attributes holds the parameters, if any are given.
+
+    Raises
+    ------
+    ArtifactError
+        If it was made with others.
+    """
+    if parameters is not None and attributes["parameters"] != plain(parameters):
+        raise ArtifactError(
+            f"artifact {path} belongs to another configuration: "
+            f"rebuild it with: snakemake --force {path}"
+        )

@@ -1,25 +1,26 @@
 """Kept modes of filtered spectra."""
 
 import numpy as np
-import xarray as xr
 
+from hopper_workflow import columns
 from hopper.stability.mesh_spectrum import HALVES
 from hopper.stability.paper_matrix import Half
 
 FORMULATIONS = ("paper", "physical")
+_COLUMNS = ("eigenvalue_real", "eigenvalue_imag", "half", "kept", "run_start", "run_stop")
 
 
-def by_half(data: xr.Dataset, formulation: str) -> dict[Half, np.ndarray]:
-    """Return the eigenvalues kept in a formulation, by parity.
+def by_half(spectrum: str) -> dict[str, dict[Half, np.ndarray]]:
+    """Return the eigenvalues of an artifact that are kept in each formulation, by parity.
 
-    ``paper``: the first unbroken run kept as the paper words the filter, both parities;
-    ``physical``: those of the flow's parity that the sound filter keeps. A parity of which nothing
-    is kept is left out.
+    ``paper``: the first unbroken run kept as the paper words the filter, both parities, but for one
+    of which nothing is kept; ``physical``: those of the flow's parity that the sound filter keeps.
     """
-    values, half = data["eigenvalue"].to_numpy(), data["half"].to_numpy()
-    if formulation == "physical":
-        return {"physical": values[(data["kept"].to_numpy() == "yes") & (half == "physical")]}
-    index = np.arange(values.size)
-    run = (index >= int(data["run_start"])) & (index < int(data["run_stop"]))
-    parts = {name: values[run & (half == name)] for name in HALVES}
-    return {name: part for name, part in parts.items() if part.size}
+    real, imag, half, kept, start, stop = columns.read(spectrum, _COLUMNS).values()
+    values, index = real + 1j * imag, np.arange(real.size)
+    run = (start <= index) & (index < stop)
+    parts = {name: values[run & (half == code)] for code, name in enumerate(HALVES)}
+    return {
+        "paper": {name: part for name, part in parts.items() if part.size},
+        "physical": {"physical": values[(kept != 0) & (half == HALVES.index("physical"))]},
+    }

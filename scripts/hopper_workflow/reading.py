@@ -6,9 +6,8 @@ from typing import Any
 
 import xarray as xr
 
-from hopper_data.cf import plain
 from hopper_data.reading import open_artifact, open_stored
-from hopper_workflow.artifacts import ArtifactError, verify
+from hopper_workflow.artifacts import require_parameters, verify
 
 
 def read(
@@ -26,9 +25,5 @@ def read(
     """
     verify(path)
     loaded = open_stored(path) if stored else open_artifact(path)
-    if parameters is not None and loaded.attrs["parameters"] != plain(parameters):
-        raise ArtifactError(
-            f"artifact {path} belongs to another configuration: "
-            f"rebuild it with: snakemake --force {path}"
-        )
+    require_parameters(path, loaded.attrs, parameters)
     return loaded

@@ -1,9 +1,14 @@
-"""Files that are written whole or not at all."""
+"""Files that are written whole or not at all, and read where HDF5 has no locks."""
 
 import contextlib
 import os
-from collections.abc import Iterator
+import shutil
+import tempfile
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TypeVar
+
+_Loaded = TypeVar("_Loaded")
 
 
 def partial(target: Path) -> Path:
@@ -45,3 +50,21 @@ def replacing(path: str | Path) -> Iterator[Path]:
         temporary.replace(target)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def loaded(load: Callable[[str | Path], _Loaded], path: str | Path) -> _Loaded:
+    """Return what a function loads of a netCDF file.
+
+    Raises
+    ------
+    OSError
+        If it is missing or not a netCDF file.
+    """
+    try:
+        return load(path)
+    except OSError:
+        if not Path(path).is_file():
+            raise
+        # Not a netCDF file, or one on a file system that has no locks for HDF5.
+        with tempfile.TemporaryDirectory() as folder:
+            return load(shutil.copy2(path, folder))

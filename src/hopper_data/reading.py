@@ -1,13 +1,12 @@
 """netCDF files of the workflow and the command, read as xarray datasets."""
 
-import shutil
-import tempfile
 from pathlib import Path
 
 import xarray as xr
 
 from hopper_data.contents import CfDataset
 from hopper_data.decoding import decoded
+from hopper_data.files import loaded
 
 
 def as_xarray(dataset: CfDataset) -> xr.Dataset:
@@ -23,14 +22,7 @@ def open_stored(path: str | Path) -> xr.Dataset:
     OSError
         If it is missing or not a netCDF file.
     """
-    try:
-        return _load(path)
-    except OSError:
-        if not Path(path).is_file():
-            raise
-        # Not a netCDF file, or one on a file system that has no locks for HDF5.
-        with tempfile.TemporaryDirectory() as folder:
-            return _load(shutil.copy2(path, folder))
+    return loaded(_load, path)
 
 
 def _load(path: str | Path) -> xr.Dataset:

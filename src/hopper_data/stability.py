@@ -1,7 +1,10 @@
 """Tables of spectra and of what decides stability."""
 
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, get_args
+from typing import get_args
+
+import numpy as np
 
 from hopper.stability.collocation import PARITIES
 from hopper.stability.convergence_filter import REASONS
@@ -10,9 +13,6 @@ from hopper.stability.modes import GOVERNORS
 from hopper.von_mises.characteristics import Kind
 from hopper.von_mises.growth import Governor
 from hopper_data.tables import Table, complex_number, flag, number, within
-
-if TYPE_CHECKING:  # a plain answer needs no xarray, which takes a second to import
-    import xarray as xr
 
 _NO_YES = ("no", "yes")
 HALF = flag("half", "parity: physical is sigma1 even and psi1 odd", HALVES, "mode")
@@ -73,11 +73,10 @@ PLANE: Table = (
 PSEUDOSPECTRUM: Table = (number("sigma_min", "smallest singular value of z I - M", "imag real"),)
 
 
-def read_mesh_spectrum(stored: "xr.Dataset", n: int) -> MeshSpectrum:
-    """Return the spectrum of a mesh of ``n`` nodes from its stored form."""
-    return MeshSpectrum(
-        n,
-        stored["eigenvalue_real"].to_numpy() + 1j * stored["eigenvalue_imag"].to_numpy(),
-        stored["half"].to_numpy(),
-        stored["eigenvector_tail"].to_numpy(),
-    )
+def read_mesh_spectrum(stored: Mapping[str, np.ndarray], n: int) -> MeshSpectrum:
+    """Return the spectrum of a mesh of ``n`` nodes from its ``MESH_COLUMNS``, as stored."""
+    real, imag, half, tail = (stored[name] for name in MESH_COLUMNS)
+    return MeshSpectrum(n, real + 1j * imag, half, tail)
+
+
+MESH_COLUMNS = ("eigenvalue_real", "eigenvalue_imag", "half", "eigenvector_tail")

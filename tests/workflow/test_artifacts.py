@@ -3,13 +3,14 @@
 import json
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 
 import netCDF4
 import numpy as np
 import pytest
 
-from hopper_workflow import artifacts, reading
+from hopper_workflow import artifacts, columns, reading
 from tests.reliability import comparison, record
 
 pytestmark = pytest.mark.workflow
@@ -137,8 +138,18 @@ def test_logs_receive_what_the_script_says(built):
 
 def test_an_artifact_of_another_configuration_is_refused(built):
     path = built.path / "results/radial/fig_3_1.nc"
-    with pytest.raises(artifacts.ArtifactError, match="another configuration"):
-        reading.read(path, parameters={"delta_deg": 31})
+    for read in (reading.read, partial(columns.read, names=[])):
+        with pytest.raises(artifacts.ArtifactError, match="another configuration"):
+            read(path, parameters={"delta_deg": 31})
+
+
+def test_columns_are_what_xarray_reads(built):
+    """Numbers with and without coordinates, flags, complex numbers, and the parameters."""
+    for path in files(built, "results", "*.nc"):
+        whole = reading.read(path, stored=True)
+        found = columns.read(path, list(map(str, whole.variables)), json.loads(whole.parameters))
+        for name, values in found.items():
+            np.testing.assert_array_equal(values, whole[name].to_numpy(), err_msg=f"{path} {name}")
 
 
 def test_an_interrupted_write_leaves_nothing(tmp_path):

@@ -8,7 +8,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 SCRIPTS = {path.stem: path.read_text(encoding="utf-8") for path in ROOT.glob("scripts/*.py")}
-_READS = r"reading\b|kept_modes|merging|plotting|claims\.ledger"
+_READS = r"reading\b|merging|plotting|claims\.ledger"
 # Slow modules, and what a script says that needs them. SciPy's parts load when they are asked for.
 SLOW = {
     "xarray": _READS,

@@ -22,7 +22,7 @@ from hopper.spectral.schur import EPS, Panel, SchurForm
 Progress = Callable[[int, int], None]
 
 # Entries (points times n) and points of a batch. Fast at n = 100 to 800.
-_BATCH_ENTRIES, _BATCH_POINTS = 2**19, 2048
+_BATCH_ENTRIES, _BATCH_POINTS = 2**18, 2048
 # The small eigenproblems of later steps are a cost.
 _CHECKS = (*range(1, 17), *range(17, 66, 8))
 

@@ -10,7 +10,6 @@ bases are those of parts of M that are orthogonal to each other.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 from math import ceil, inf, pi
 
 import numpy as np
@@ -20,8 +19,8 @@ from hopper.arguments import RealLike, checked
 from hopper.arrays import Array, Complex
 from hopper.brief import brief
 from hopper.errors import ConvergenceError, InvalidParameterError
-from hopper.spectral.lanczos import largest_eigenvalues
 from hopper.spectral.matching import match_kept
+from hopper.spectral.propagator import relative_norms
 from hopper.spectral.sampling import refined
 from hopper.spectral.scaling import exponent_of, represented, times_power
 from hopper.spectral.schur import EPS, square, weight_roots
@@ -30,8 +29,6 @@ from hopper.spectral.schur import EPS, square, weight_roots
 _LARGEST_PHASE = 1e-4 / EPS
 # How far lines between samples of a curve may be off, relative, and the most first samples.
 _OFF_CHORD, _MOST_TIMES = 0.01, 2_000_000
-# Of norms by Lanczos iteration: bound on the error of their squares, steps, times that go together.
-_TOLERANCE, _CHECKS, _BATCH = 1e-8, (6, 8, 10, 12, 16), 512
 
 
 @dataclass(frozen=True)
@@ -222,72 +219,22 @@ def _norm(bases: Sequence[ModalBasis], times: Array, rate: float) -> Array:
             f"elapsed = {longest:.6g} is too long: the phases of the modes, up to "
             f"{highest * longest:.1e}, are lost in rounding; give shorter times"
         )
-    norm = np.zeros(times.shape)
-    for basis in bases:
-        relative = _relative_norms(basis, times.ravel()).reshape(times.shape)
+    flat = times.ravel()
+    norm = np.zeros(flat.size)
+    bounds = [condition_number([basis]) for basis in bases]
+    for index in np.argsort(bounds)[::-1]:
+        kappa, basis = bounds[index], bases[index]
         with np.errstate(over="ignore"):
-            norm = np.maximum(norm, np.exp((basis.abscissa - rate) * times) * relative)
+            growth = np.exp((basis.abscissa - rate) * flat)
+            # Where its bound is below the norm of another part, a part does not matter.
+            (open_,) = np.nonzero(kappa * growth >= norm)
+            relative = relative_norms(basis.factor, basis.eigenvalues, flat[open_])
+            norm[open_] = np.maximum(norm[open_], growth[open_] * relative)
     if not np.isfinite(norm).all():
         raise InvalidParameterError(
             f"elapsed = {longest:.6g} is too long: the norm exceeds 1e308; give shorter times"
         )
-    return norm
-
-
-def _relative_norms(basis: ModalBasis, times: Array) -> Array:
-    """Return exp(-t alpha) ||exp(t M)||, alpha of this basis: neither over- nor underflows."""
-    size, real = basis.size, int(np.sum(basis.eigenvalues.imag == 0))
-    rates = (basis.eigenvalues - basis.abscissa)[[*range(real), *range(real, size, 2)]]
-    inverse = scipy.linalg.solve_triangular(basis.factor, np.eye(size), check_finite=False)
-    gram = partial(_gram_product, basis.factor, inverse, real)
-    start = np.random.default_rng(0).standard_normal(size)
-    squares = np.full(times.size, np.nan)
-    with np.errstate(over="ignore", under="ignore", divide="ignore", invalid="ignore"):
-        for first in range(0, times.size, _BATCH):
-            batch = slice(first, first + _BATCH)
-            diagonal = np.exp(rates[:, None] * times[batch])
-            squares[batch] = largest_eigenvalues(
-                gram, [diagonal], start / np.linalg.norm(start), _TOLERANCE, _CHECKS
-            )
-            # Whether singular values crowd around the largest is a matter of the norm, not of time.
-            if np.isnan(squares[batch]).mean() > 0.5:
-                break
-    for index in np.flatnonzero(np.isnan(squares)):
-        image = basis.factor @ _times(np.exp(rates[:, None] * times[index]), real, inverse)
-        squares[index] = _largest_eigenvalue(image.T @ image)
-    return np.sqrt(squares)
-
-
-def _gram_product(
-    factor: Array, inverse: Array, real: int, vectors: Array, diagonal: Complex
-) -> Array:
-    """Return A^T A v for A = R diag(d) R^-1, column by column, each with a diagonal of its own."""
-    image = factor @ _times(diagonal, real, inverse @ vectors)
-    return inverse.T @ _times(diagonal.conj(), real, factor.T @ image)
-
-
-def _times(diagonal: Complex, real: int, vectors: Array) -> Array:
-    """Return diag(d) v in the real basis: scaling, and a rotation for each pair.
-
-    ``diagonal``, shape (``real`` + pairs, n) or (..., 1), has one of each pair.
-    """
-    result = np.empty_like(vectors)
-    result[:real] = diagonal[:real].real * vectors[:real]
-    turn, rows, columns = diagonal[real:], vectors[real::2], vectors[real + 1 :: 2]
-    result[real::2] = turn.real * rows + turn.imag * columns
-    result[real + 1 :: 2] = turn.real * columns - turn.imag * rows
-    return result
-
-
-def _largest_eigenvalue(symmetric: Array) -> float:
-    last = len(symmetric) - 1
-    try:
-        (found,) = scipy.linalg.eigvalsh(
-            symmetric, subset_by_index=[last, last], driver="evx", check_finite=False
-        )
-    except np.linalg.LinAlgError:  # bisection fails where all eigenvalues coincide, as at t = 0
-        found = np.linalg.eigvalsh(symmetric)[-1]
-    return float(found)
+    return norm.reshape(times.shape)
 
 
 @checked
