@@ -32,7 +32,7 @@ from hopper.values import complex_array, number_array
 # numbers: it is followed to where it ends.
 TOOLS = {
     "hopper.arguments", "hopper.brief", "hopper.errors", "hopper.radial.steps", "hopper.values",
-    "hopper.spectral.sampling",
+    "hopper.spectral.lanczos", "hopper.spectral.propagator", "hopper.spectral.sampling",
     *(f"hopper.march.{name}" for name in (
         "crossing", "equations", "fields", "history", "loop", "mapped", "net", "rays", "settling")),
 }  # fmt: skip

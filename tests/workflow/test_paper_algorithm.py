@@ -5,9 +5,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-import xarray as xr
 
-from hopper_workflow import paper_checks, ranges, reading
+from hopper_workflow import columns, paper_checks, ranges
 from compute_friction_curve import compute_friction_curve
 from compute_paper_border import compute_paper_border
 from hopper import Hopper, friction_limit, linear_stability, solve_radial
@@ -69,8 +68,8 @@ def test_a_curve_that_reaches_its_limit_before_the_range_does_ends_there():
 
 def test_the_papers_border_has_a_sign_change_and_a_jump(monkeypatch):
     """Cone 30 deg at phi = 10 deg, where its abscissa jumps from .068 upwards near 30.1 deg."""
-    border = xr.Dataset({"neutral_phi": ("point", [0.0, 20.0])})
-    monkeypatch.setattr(reading, "read", lambda _: border)
+    border = {"neutral_phi": np.array([0.0, 20.0])}
+    monkeypatch.setattr(columns, "read", lambda *_: border)
     data = as_xarray(
         compute_paper_border(
             "",

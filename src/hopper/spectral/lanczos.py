@@ -1,6 +1,7 @@
 """Largest eigenvalues of many positive semidefinite operators at once, by Lanczos iteration.
 
 The operators act together, one a column, so that what they share is one matrix product for all.
+Arguments are not checked: operators may overflow, and say so.
 
 References
 ----------
@@ -8,11 +9,9 @@ References
 """
 
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import numpy as np
 
-from hopper.arguments import checked
 from hopper.arrays import Array, Numbers
 
 # A Ritz pair (value, y) of residual r has some eigenvalue within r, and the largest, of vector u,
@@ -46,10 +45,9 @@ def _largest_ritz(alpha: Array, beta: Array) -> tuple[Array, Array]:
     return ritz[:, -1], np.abs(vectors[:, -1, -1])
 
 
-@checked
 def largest_eigenvalues(
     apply: Callable[..., Numbers],
-    data: Sequence[Any],
+    data: Sequence[Numbers],
     start: Numbers,
     tolerance: float,
     checks: Sequence[int],

@@ -3,6 +3,7 @@
 With the eigenvectors V = Q R of the modes, exp(t M) acts on their span as A = R exp(t Lambda) R^-1.
 The norm of A is the root of the largest eigenvalue of A^T A: by Lanczos iteration for all times at
 once, or of one dense matrix after the other where many singular values are near the largest.
+Arguments are not checked: they are parts of a basis that is.
 """
 
 from functools import partial
@@ -10,7 +11,6 @@ from functools import partial
 import numpy as np
 import scipy
 
-from hopper.arguments import Row, checked
 from hopper.arrays import Array, Complex
 from hopper.spectral.lanczos import largest_eigenvalues
 
@@ -18,8 +18,7 @@ from hopper.spectral.lanczos import largest_eigenvalues
 _TOLERANCE, _CHECKS, _BATCH = 1e-8, (6, 8, 10, 12, 16), 512
 
 
-@checked
-def relative_norms(factor: Array, eigenvalues: Complex, times: Row) -> Array:
+def relative_norms(factor: Array, eigenvalues: Complex, times: Array) -> Array:
     """Return exp(-t alpha) ||exp(t M)|| at each t, alpha the largest real part of an eigenvalue.
 
     It neither over- nor underflows.
