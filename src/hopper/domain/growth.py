@@ -20,13 +20,19 @@ from hopper.radial.refinement import solve
 from hopper.radial.solution import solution_of
 from hopper.stability.asymptotic_line import asymptotic_line
 from hopper.stability.low_modes import upper_eigenvalues
-from hopper.stability.modes import Disturbances, LinearStability, linear_stability, parities_among
+from hopper.stability.modes import (
+    OTHERS,
+    Disturbances,
+    LinearStability,
+    linear_stability,
+    parities_among,
+)
 from hopper.values import require_angle
 
 # Half-grid points and low modes for what else is neutral at a fold.
 _FOLD_SIZE, _FOLD_MODES = 54, 5
-# Root finding, in radians: well below 1e-6 degrees.
-ROOT_TOLERANCE = 1e-12
+# Root finding, in radians: well below 1e-6 degrees. Relative error of the mode that governs there.
+ROOT_TOLERANCE, _TOLERANCE = 1e-12, 1e-11
 # Where no equation holds at an edge, only that modes cease to be resolved.
 COARSE = 1e-4
 # A secant's last step: the next one would be far smaller.
@@ -111,7 +117,9 @@ class Hoppers:
         self.last = member
         if member.tau <= 0:
             return "non_positive_stress"
-        return linear_stability(solution_of(member), self.disturbances)
+        return linear_stability(
+            solution_of(member), self.disturbances, tolerance=_TOLERANCE, others=OTHERS
+        )
 
 
 @dataclass(frozen=True)
