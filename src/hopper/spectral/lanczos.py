@@ -20,10 +20,6 @@ from hopper.arrays import Array, Numbers
 _SHARE = 0.1
 
 
-def _no_noise(value: Array) -> Array:
-    return np.zeros_like(value)
-
-
 def _dot(x: Numbers, y: Numbers) -> Array:
     """Return the real parts of the columns' inner products, shape (points,)."""
     if not np.iscomplexobj(x):
@@ -51,7 +47,7 @@ def largest_eigenvalues(
     start: Numbers,
     tolerance: float,
     checks: Sequence[int],
-    noise: Callable[[Array], Array] = _no_noise,
+    noise: Callable[[Array], Array] = np.zeros_like,
 ) -> Array:
     """Return the largest eigenvalue of each operator, shape (points,).
 
@@ -63,7 +59,7 @@ def largest_eigenvalues(
     data : sequence of arrays, shape (..., points)
         What differs from operator to operator; not finite where an operator is not.
     start : array, shape (n,)
-        Of norm 1, real or complex as the operators are.
+        Real or complex as the operators are.
     tolerance : float
         Bound on the relative error where eigenvalues crowd around the largest; elsewhere it is far
         smaller.
@@ -81,7 +77,7 @@ def largest_eigenvalues(
     points = data[0].shape[-1]
     share = _SHARE / np.sqrt(start.size)
     found, active = np.full(points, np.nan), np.arange(points)
-    q = np.repeat(start[:, None], points, axis=1)
+    q = np.repeat((start / np.linalg.norm(start))[:, None], points, axis=1)
     previous = np.zeros_like(q)
     # Without reorthogonalisation: its price, copies of converged values, spares the largest.
     alpha, beta = np.zeros((2, checks[-1], points))

@@ -45,9 +45,7 @@ def relative_norms(factor: Array, eigenvalues: Complex, times: Array) -> Array:
         for first in range(0, times.size, _BATCH):
             batch = slice(first, first + _BATCH)
             diagonal = np.exp(rates[:, None] * times[batch])
-            squares[batch] = largest_eigenvalues(
-                gram, [diagonal], start / np.linalg.norm(start), _TOLERANCE, _CHECKS
-            )
+            squares[batch] = largest_eigenvalues(gram, [diagonal], start, _TOLERANCE, _CHECKS)
             # Whether singular values crowd around the largest is a matter of the norm, not of time.
             if np.isnan(squares[batch]).mean() > 0.5:
                 break

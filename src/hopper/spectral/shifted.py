@@ -74,7 +74,7 @@ def _sigma_min(form: SchurForm, z: Complex, tolerance: float) -> Array:
     largest = largest_eigenvalues(
         partial(_apply_inverse, form),
         [_divisors(form.panels, z, floor), _divisors(form.adjoint_panels, z.conj(), floor)],
-        start / np.linalg.norm(start),
+        start,
         tolerance,
         _CHECKS,
         noise=lambda value: np.minimum(floor * np.sqrt(value), 0.01),
